@@ -1,0 +1,140 @@
+#pragma once
+
+#include <perimorph/bonds/segment_cutter.h>
+#include <perimorph/mesh/nodal_mesh.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/tensor.h>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace Perimorph
+{
+  namespace Coupling
+  {
+    /// Tensor of rank 4 that does not change under any exchange of indices: the
+    /// stiffness of a set of bonds.
+    ///
+    /// One component per set of indices {a <= b <= c <= d}: 5 in 2D (0000,
+    /// 0001, 0011, 0111, 1111), 15 in 3D.
+    template <int dim>
+    struct FullySymmetricTensor
+    {
+      static constexpr unsigned int n_components = dim == 2 ? 5 : 15;
+
+      std::array<double, n_components> components{};
+
+      /// direction (x) direction (x) direction (x) direction
+      static FullySymmetricTensor
+      dyad(const dealii::Tensor<1, dim> &direction);
+
+      /// Component that stands for index (a, b, c, d).
+      static unsigned int
+      component(unsigned int a, unsigned int b, unsigned int c, unsigned int d);
+
+      /// How many of the dim^4 indices a component stands for.
+      static unsigned int
+      multiplicity(unsigned int component);
+
+      double
+      operator()(const unsigned int a,
+                 const unsigned int b,
+                 const unsigned int c,
+                 const unsigned int d) const
+      {
+        return components[component(a, b, c, d)];
+      }
+
+      /// Adds factor * other.
+      void
+      add(double factor, const FullySymmetricTensor &other);
+
+      /// sigma_ab = C_abcd strain_cd.
+      dealii::SymmetricTensor<2, dim>
+      contract(const dealii::SymmetricTensor<2, dim> &strain) const;
+
+      /// All dim^4 components.
+      dealii::Tensor<4, dim>
+      full() const;
+
+      /// Frobenius norm of the full tensor.
+      double
+      norm() const;
+    };
+
+    /// What the cells must subtract from their stiffness so that bonds and
+    /// elements together pass the patch test: a tensor C_q per Gauss point (in
+    /// the order of Mesh::CellGeometry), found cell by cell from the pieces of
+    /// the bonds. The residual stiffness of the element is C_0 - C_q. Source:
+    /// numerics-explicit.md, section 3.
+    template <int dim>
+    class SegmentResidual
+    {
+    public:
+      static constexpr unsigned int n_points = 1u << dim;
+
+      using PointTensors = std::array<FullySymmetricTensor<dim>, n_points>;
+
+      /// Outcome of solve() over all cells, and what to warn about.
+      struct Report
+      {
+        /// Largest violation of the constraints, relative to their largest
+        /// size among all cells.
+        double       largest_residual = 0.;
+        unsigned int smallest_rank    = 0; ///< of the local system
+        unsigned int largest_rank     = 0;
+      };
+
+      /// @param owned_cells_only  ignore pieces in cells of other ranks
+      /// The mesh must outlive the object.
+      explicit SegmentResidual(const Mesh::NodalMesh<dim> &mesh,
+                               bool owned_cells_only = true);
+
+      /// @param direction  unit vector along the bond
+      /// @param stiffness  pair stiffness k [force / length]
+      /// @param length     |xi|
+      void
+      add_bond(const dealii::Tensor<1, dim>                &direction,
+               double                                       stiffness,
+               double                                       length,
+               const std::vector<Bonds::SegmentPiece<dim>> &pieces);
+
+      /// Computes C_q of all touched cells, once, and frees what add_bond()
+      /// stored.
+      Report
+      solve();
+
+      /// Cells with a piece of a bond, in the order they were met.
+      const std::vector<unsigned int> &
+      touched_cells() const
+      {
+        return cells;
+      }
+
+      /// C_q of touched_cells()[k], after solve() [stress].
+      const PointTensors &
+      tensors(const std::size_t k) const
+      {
+        return solution[k];
+      }
+
+    private:
+      /// Rank 3, fully symmetric: 000, 001, 011, 111 in 2D, 10 in 3D.
+      static constexpr unsigned int n_force_components = dim == 2 ? 4 : 10;
+      static constexpr unsigned int n_nodes            = 1u << dim;
+
+      /// T_l of the nodes of a cell.
+      using Moments =
+        std::array<std::array<double, n_force_components>, n_nodes>;
+
+      const Mesh::NodalMesh<dim> &mesh;
+      bool                        owned_cells_only;
+      std::vector<unsigned int>   position_of_cell; ///< in cells
+      std::vector<unsigned int>   cells;
+      std::vector<Moments>        sums;
+      std::vector<PointTensors>   solution;
+    };
+  } // namespace Coupling
+} // namespace Perimorph
