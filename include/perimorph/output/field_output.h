@@ -1,0 +1,110 @@
+#pragma once
+
+#include <perimorph/output/vtu_writer.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/tensor.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace Perimorph::Mesh
+{
+  template <int dim>
+  struct NodalMesh;
+}
+
+namespace Perimorph::Output
+{
+  /// Named arrays of one step, one entry per node, cell or particle. Values
+  /// are copied.
+  template <int dim>
+  class Fields
+  {
+  public:
+    void
+    add(const std::string &name, const std::vector<double> &values);
+
+    /// One array of three components (zero z in 2D): a vector in ParaView.
+    void
+    add(const std::string                         &name,
+        const std::vector<dealii::Tensor<1, dim>> &values);
+
+    /// One scalar array per component: name_xx, name_yy, name_zz, name_xy,
+    /// name_xz, name_yz; in 2D those without z.
+    void
+    add(const std::string                                  &name,
+        const std::vector<dealii::SymmetricTensor<2, dim>> &values);
+
+    /// A vector field given like unknowns: component c of entry n is value
+    /// dim * n + c.
+    void
+    add_vector(const std::string &name, const std::vector<double> &values);
+
+    const std::vector<VtuArray> &
+    arrays() const;
+
+  private:
+    std::vector<VtuArray> list;
+  };
+
+  /// Time series for ParaView in one folder: solution.pvd with the mesh,
+  /// particles.pvd with the peridynamic particles as points.
+  ///
+  /// The mesh and all arrays are known completely to every rank, so rank 0
+  /// writes one file per step and other ranks return at once.
+  template <int dim>
+  class FieldOutput
+  {
+  public:
+    /// @param folder   exists already
+    /// @param mesh     must outlive this object
+    FieldOutput(const std::string &folder, const Mesh::NodalMesh<dim> &mesh);
+
+    /// True on the rank that writes; others need not gather fields.
+    bool
+    is_active() const;
+
+    /// Writes solution_<step>.vtu, with material and rank of each cell.
+    /// @param nodal_fields   one entry per node
+    /// @param cell_fields    one entry per cell
+    /// @throws Base::InputError   the file cannot be written
+    void
+    write(const unsigned int step,
+          const double       time,
+          const Fields<dim> &nodal_fields,
+          const Fields<dim> &cell_fields = Fields<dim>());
+
+    /// Writes particles_<step>.vtu: one point per entry of @p nodes.
+    /// @param fields   one entry per entry of @p nodes
+    /// @throws Base::InputError   the file cannot be written
+    void
+    write_particles(const unsigned int               step,
+                    const double                     time,
+                    const std::vector<unsigned int> &nodes,
+                    const Fields<dim>               &fields);
+
+    /// The series written so far, e.g. {"solution.pvd"}; names in the folder.
+    std::vector<std::string>
+    files() const;
+
+  private:
+    struct Series
+    {
+      const std::string                           name;
+      std::vector<std::pair<double, std::string>> steps;
+    };
+
+    void
+    write_step(Series            &series,
+               const unsigned int step,
+               const double       time,
+               const VtuGrid     &grid);
+
+    const std::string           folder;
+    const Mesh::NodalMesh<dim> &mesh;
+    Series                      solution  = {"solution", {}};
+    Series                      particles = {"particles", {}};
+  };
+} // namespace Perimorph::Output
