@@ -1,0 +1,24 @@
+// Unit cube, n by n by n equal hexahedra.
+SetFactory("Built-in");
+DefineConstant[ n = {8, Name "n"} ];
+Point(1) = {0, 0, 0};
+Point(2) = {1, 0, 0};
+Point(3) = {1, 1, 0};
+Point(4) = {0, 1, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+Transfinite Curve{1:4} = n + 1;
+Transfinite Surface{1};
+Recombine Surface{1};
+e[] = Extrude{0, 0, 1}{ Surface{1}; Layers{n}; Recombine; };
+Physical Volume("domain", 1) = {e[1]};
+Physical Surface("left", 11) = {e[5]};
+Physical Surface("right", 12) = {e[3]};
+Physical Surface("bottom", 13) = {e[2]};
+Physical Surface("top", 14) = {e[4]};
+Physical Surface("front", 15) = {e[0]};
+Physical Surface("back", 16) = {1};

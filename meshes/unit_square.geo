@@ -1,0 +1,21 @@
+// Unit square, n by n equal quadrilaterals.
+SetFactory("Built-in");
+DefineConstant[ n = {16, Name "n"} ];
+Point(1) = {0, 0, 0};
+Point(2) = {1, 0, 0};
+Point(3) = {1, 1, 0};
+Point(4) = {0, 1, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+Transfinite Curve{1:4} = n + 1;
+Transfinite Surface{1};
+Recombine Surface{1};
+Physical Surface("domain", 1) = {1};
+Physical Curve("left", 11) = {4};
+Physical Curve("right", 12) = {2};
+Physical Curve("bottom", 13) = {1};
+Physical Curve("top", 14) = {3};
