@@ -118,6 +118,7 @@ Equilibrium<dim>::prepare_linear_solver(const Vector &displacement)
       std::vector<const Fem::Contribution<dim> *>(),
     displacement,
     constraints,
+    solver_choice.matrix_free ? preconditioner_matrix : matrix,
     problem.partition().owned_dofs());
   using Clock       = std::chrono::steady_clock;
   auto last_line    = Clock::now();

@@ -117,6 +117,7 @@ TangentOperator<dim>::TangentOperator(
   std::vector<const Fem::Contribution<dim> *> terms,
   const Vector                               &displacement,
   const dealii::AffineConstraints<double>    &constraints,
+  const Matrix                               &preconditioner_matrix,
   const dealii::IndexSet                     &owned)
   : matrix(matrix)
   , matrix_free_terms(std::move(terms))
@@ -126,7 +127,11 @@ TangentOperator<dim>::TangentOperator(
 {
   for (const auto &line : constraints.get_lines())
     if (owned.is_element(line.index))
-      constrained.push_back(owned.index_within_set(line.index));
+      {
+        constrained.push_back(owned.index_within_set(line.index));
+        constrained_diagonal.push_back(
+          preconditioner_matrix.diag_element(line.index));
+      }
 }
 
 template <int dim>
@@ -145,11 +150,12 @@ TangentOperator<dim>::vmult(Vector &destination, const Vector &source) const
   for (const auto *term : matrix_free_terms)
     term->add_tangent_product(displacement, input, product);
   product.compress(dealii::VectorOperation::add);
-  for (const unsigned int entry : constrained)
-    product.local_element(entry) = 0.;
   input.zero_out_ghost_values();
   for (unsigned int k = 0; k < destination.locally_owned_size(); ++k)
     destination.local_element(k) += product.local_element(k);
+  for (unsigned int k = 0; k < constrained.size(); ++k)
+    destination.local_element(constrained[k]) =
+      constrained_diagonal[k] * source.local_element(constrained[k]);
 }
 
 template class TangentAssembler<2>;

@@ -35,9 +35,7 @@ namespace Perimorph
     public:
       explicit SegmentCutter(const Mesh::NodalMesh<dim> &mesh);
 
-      /// @param[out] pieces  in the order of the segment; shares of one part in
-      /// a
-      ///                     row
+      /// @param[out] pieces  in the order of the segment
       /// @return false when the pieces do not add up to the length (1e-8): the
       ///         segment leaves the body, and the bond has to be dropped
       bool

@@ -43,7 +43,9 @@ private:
 };
 
 /// The tangent as an operator: an assembled matrix plus terms applied without
-/// a matrix. Constrained entries of vectors are zero and stay zero.
+/// a matrix. Constrained equations are those of the preconditioner: multigrid
+/// moves constrained entries a little, and any other diagonal there would be a
+/// spurious eigenvalue.
 template <int dim>
 class TangentOperator
 {
@@ -52,7 +54,8 @@ public:
                   std::vector<const Fem::Contribution<dim> *>     terms,
                   const Vector                                   &displacement,
                   const dealii::AffineConstraints<double>        &constraints,
-                  const dealii::IndexSet                         &owned);
+                  const Matrix           &preconditioner_matrix,
+                  const dealii::IndexSet &owned);
 
   void
   vmult(Vector &destination, const Vector &source) const;
@@ -61,7 +64,8 @@ private:
   const Matrix                               &matrix;
   std::vector<const Fem::Contribution<dim> *> matrix_free_terms;
   const Vector                               &displacement;
-  std::vector<unsigned int>                   constrained; ///< local entries
+  std::vector<unsigned int> constrained;          ///< local entries
+  std::vector<double>       constrained_diagonal; ///< of the preconditioner
   mutable Vector                              input;
   mutable Vector                              product;
 };

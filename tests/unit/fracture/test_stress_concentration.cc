@@ -91,26 +91,30 @@ namespace
     EXPECT_NEAR(kirsch_error(128, false, false, false), -2.80, 0.02);
   }
 
-  /// Cells three times as long across the hole edge as along it: with the
-  /// first radius only one layer of nodes lies behind the edge, and the
-  /// quadratic part is determined by nothing but the curvature of the hole.
+  /// Towards the corners of the plate the cells are longer across the hole edge
+  /// than along it: with a small radius only one layer of nodes lies behind the
+  /// edge, and the quadratic terms hang on the curvature of the hole.
   TEST(StressConcentration, fit_reaches_a_second_layer_of_nodes)
   {
-    auto mesh = Testing::annulus_mesh<2>(128, 20, 1., 4.);
-    distribute(mesh);
+    const auto mesh = Testing::kirsch_mesh(64, false);
     const auto materials =
       Testing::unit_material<2>(Testing::kirsch_poissons_ratio,
                                 PlaneState::plane_stress);
-    const DisplacementFit<2> fit(mesh);
+    const DisplacementFit<2> fit(mesh, {}, 2.2);
     const NodalStress<2>     recovery(fit, materials);
-    const auto               result = stress_concentration(
-      recovery,
-      Testing::nodes_at_radius(mesh, 1.),
-      Testing::nodal_values<2>(mesh, Testing::kirsch_displacement),
-      1.,
-      "hole",
-      MPI_COMM_WORLD);
-    EXPECT_NEAR(result.value, 3., 0.);
+    const auto               displacement =
+      Testing::nodal_values<2>(mesh, Testing::kirsch_displacement);
+    double largest_error = 0.;
+    for (const unsigned int node : Testing::nodes_at_radius(mesh, 1.))
+      {
+        const auto  &x     = mesh.nodes[node];
+        const double exact = 1. + 2. * (x[0] * x[0] - x[1] * x[1]);
+        largest_error      = std::max(
+          largest_error,
+          std::abs(hoop_stress(recovery.at_node(node, displacement), x, {}) -
+                   exact));
+      }
+    EXPECT_LT(largest_error, 0.02); // 0.12 without the bound
   }
 
   /// Two nodes with equal stresses, up to round-off.
@@ -121,8 +125,8 @@ namespace
     std::vector<unsigned int> nodes(mesh.n_nodes());
     std::iota(nodes.begin(), nodes.end(), 0u);
     std::vector<Stress<2>> stresses(mesh.n_nodes());
-    stresses[7].in_plane[0][0]  = 2.;                // at (0.2, 0.2)
-    stresses[30].in_plane[1][1] = 2. * (1. + 1e-12); // at (0, 1)
+    stresses[7].in_plane[0][0]  = 2. * (1. + 1e-12); // at (0.2, 0.2)
+    stresses[30].in_plane[1][1] = 2.;                // at (0, 1)
     stresses[20].in_plane[1][1] = 1.9;
     const auto result =
       stress_concentration(mesh, nodes, stresses, 4., "edge", MPI_COMM_WORLD);
