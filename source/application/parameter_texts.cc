@@ -3,291 +3,306 @@
 
 namespace Perimorph::Application
 {
-using dealii::Patterns::Anything;
-using dealii::Patterns::Bool;
-using dealii::Patterns::Double;
-using dealii::Patterns::Integer;
-using dealii::Patterns::Selection;
-using Parameters::PositiveDouble;
-using Parameters::selection_text;
+  using dealii::Patterns::Anything;
+  using dealii::Patterns::Bool;
+  using dealii::Patterns::Double;
+  using dealii::Patterns::Integer;
+  using dealii::Patterns::Selection;
+  using Parameters::PositiveDouble;
+  using Parameters::selection_text;
 
-namespace
-{
-Selection
-choice(const std::vector<std::string> &names)
-{
-  return Selection(selection_text(names));
-}
-} // namespace
+  namespace
+  {
+    Selection
+    choice(const std::vector<std::string> &names)
+    {
+      return Selection(selection_text(names));
+    }
+  } // namespace
 
-void
-ParameterTexts::declare(dealii::ParameterHandler &prm)
-{
-  prm.add_parameter("Title", title, "Name of the case, free text.");
-  prm.add_parameter("Mode",
-                    mode,
-                    "What carries the body: both methods, or one of them.",
-                    choice(Mesh::mode_names()));
-  prm.add_parameter("Dimension", dimension, "2 or 3.", Integer(2, 3));
-  prm.add_parameter("Output folder",
-                    output_folder,
-                    "Where results go; empty: output/<name of this file>.",
-                    Anything());
+  void
+  ParameterTexts::declare(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("Title", title, "Name of the case, free text.");
+    prm.add_parameter("Mode",
+                      mode,
+                      "What carries the body: both methods, or one of them.",
+                      choice(Mesh::mode_names()));
+    prm.add_parameter("Dimension", dimension, "2 or 3.", Integer(2, 3));
+    prm.add_parameter("Output folder",
+                      output_folder,
+                      "Where results go; empty: output/<name of this file>.",
+                      Anything());
 
-  prm.enter_subsection("Mesh");
-  prm.add_parameter("file",
-                    mesh_file,
-                    "gmsh mesh (.msh) or geometry (.geo, meshed on the fly); "
-                    "relative to the parameter file, else to the working "
-                    "folder. Any consistent unit of length.",
-                    Anything());
-  prm.add_parameter("geometry parameters",
-                    geometry_parameters,
-                    "Values for DefineConstant of a .geo: nr = 24, nt = 12.",
-                    Anything());
-  prm.leave_subsection();
+    prm.enter_subsection("Mesh");
+    prm.add_parameter("file",
+                      mesh_file,
+                      "gmsh mesh (.msh) or geometry (.geo, meshed on the fly); "
+                      "relative to the parameter file, else to the working "
+                      "folder. Any consistent unit of length.",
+                      Anything());
+    prm.add_parameter("geometry parameters",
+                      geometry_parameters,
+                      "Values for DefineConstant of a .geo: nr = 24, nt = 12.",
+                      Anything());
+    prm.leave_subsection();
 
-  prm.enter_subsection("Material");
-  prm.add_parameter("law",
-                    law,
-                    "Elastic law: linear elastic, isotropic, small strain.",
-                    choice({"linear elastic"}));
-  prm.add_parameter("Young's modulus",
-                    youngs_modulus,
-                    "E [stress, any consistent unit]; has no default.",
-                    Double());
-  prm.add_parameter("Poisson's ratio",
-                    poissons_ratio,
-                    "nu [-]. Bond-based peridynamics has a fixed value: 1/3 in "
-                    "plane stress, 1/4 in plane strain and 3D.",
-                    Double());
-  prm.add_parameter("state",
-                    state,
-                    "Assumption on the third direction; automatic: plane "
-                    "strain in 2D, three-dimensional in 3D.",
-                    choice({"automatic",
-                            "plane stress",
-                            "plane strain",
-                            "three-dimensional"}));
-  prm.add_parameter("by volume",
-                    by_volume,
-                    "Other constants in named volumes: inclusion: Young's "
-                    "modulus = 10, Poisson's ratio = 0.2; ...",
-                    Anything());
-  prm.leave_subsection();
+    prm.enter_subsection("Material");
+    prm.add_parameter("law",
+                      law,
+                      "Elastic law: linear elastic, isotropic, small strain.",
+                      choice({"linear elastic"}));
+    prm.add_parameter("Young's modulus",
+                      youngs_modulus,
+                      "E [stress, any consistent unit]; has no default.",
+                      Double());
+    prm.add_parameter(
+      "Poisson's ratio",
+      poissons_ratio,
+      "nu [-]. Bond-based peridynamics has a fixed value: 1/3 in "
+      "plane stress, 1/4 in plane strain and 3D.",
+      Double());
+    prm.add_parameter(
+      "state",
+      state,
+      "Assumption on the third direction; automatic: plane "
+      "strain in 2D, three-dimensional in 3D.",
+      choice(
+        {"automatic", "plane stress", "plane strain", "three-dimensional"}));
+    prm.add_parameter("by volume",
+                      by_volume,
+                      "Other constants in named volumes: inclusion: Young's "
+                      "modulus = 10, Poisson's ratio = 0.2; ...",
+                      Anything());
+    prm.leave_subsection();
 
-  prm.enter_subsection("Peridynamics");
-  prm.add_parameter("model",
-                    model,
-                    "Peridynamic model: correspondence (non-ordinary "
-                    "state-based, stabilised) or bond based (prototype "
-                    "microelastic brittle).",
-                    choice(Coupling::model_names()));
-  prm.add_parameter(
-    "around",
-    around,
-    "What the peridynamic region surrounds, separated by ';': name of a "
-    "boundary | volume NAME | point x y | segment x0 y0 x1 y1 | plane px py "
-    "nx ny | box x0 y0 x1 y1 | ball x y r (with z in 3D).",
-    Anything());
-  prm.add_parameter("core size",
-                    core_size,
-                    "Distance from there that is purely peridynamic: a length "
-                    "or '2 horizons'.",
-                    Anything());
-  prm.add_parameter("blending width",
-                    blending_width,
-                    "Width of the band to pure finite elements: a length, '1 "
-                    "horizons', or automatic = max(2 spacings, 1 horizon).",
-                    Anything());
-  prm.add_parameter("blending function",
-                    blending_function,
-                    "Shape of alpha in the band; splice: no band.",
-                    choice(Mesh::blending_function_names()));
-  prm.add_parameter("horizon ratio",
-                    horizon_ratio,
-                    "m = horizon / local spacing [-]; 1.5 is most accurate, 2 "
-                    "usual, 3 for free crack paths.",
-                    Double(1.));
-  prm.add_parameter("horizon",
-                    horizon,
-                    "One horizon for all particles [length]; 0: horizon ratio "
-                    "times the local spacing.",
-                    Double(0.));
-  prm.add_parameter("influence function",
-                    influence_function,
-                    "Weight of a bond over its length (correspondence model).",
-                    choice(Peridynamics::influence_function_names()));
-  prm.add_parameter(
-    "coupling",
-    coupling,
-    "consistent: exact patch test on any mesh. energy blending, force "
-    "blending: classical, uncorrected, with ghost forces; for comparison.",
-    choice(Coupling::scheme_names()));
-  prm.add_parameter("stabilization",
-                    stabilization,
-                    "gamma [-] of the zero-energy stabilisation; 1 fits all, "
-                    "the entry exists for studies.",
-                    Double(0.));
-  prm.leave_subsection();
+    prm.enter_subsection("Peridynamics");
+    prm.add_parameter("model",
+                      model,
+                      "Peridynamic model: correspondence (non-ordinary "
+                      "state-based, stabilised) or bond based (prototype "
+                      "microelastic brittle).",
+                      choice(Coupling::model_names()));
+    prm.add_parameter(
+      "around",
+      around,
+      "What the peridynamic region surrounds, separated by ';': name of a "
+      "boundary | volume NAME | point x y | segment x0 y0 x1 y1 | plane px py "
+      "nx ny | box x0 y0 x1 y1 | ball x y r (with z in 3D).",
+      Anything());
+    prm.add_parameter(
+      "core size",
+      core_size,
+      "Distance from there that is purely peridynamic: a length "
+      "or '2 horizons'.",
+      Anything());
+    prm.add_parameter("blending width",
+                      blending_width,
+                      "Width of the band to pure finite elements: a length, '1 "
+                      "horizons', or automatic = max(2 spacings, 1 horizon).",
+                      Anything());
+    prm.add_parameter("blending function",
+                      blending_function,
+                      "Shape of alpha in the band; splice: no band.",
+                      choice(Mesh::blending_function_names()));
+    prm.add_parameter(
+      "horizon ratio",
+      horizon_ratio,
+      "m = horizon / local spacing [-]; 1.5 is most accurate, 2 "
+      "usual, 3 for free crack paths.",
+      Double(1.));
+    prm.add_parameter(
+      "horizon",
+      horizon,
+      "One horizon for all particles [length]; 0: horizon ratio "
+      "times the local spacing.",
+      Double(0.));
+    prm.add_parameter(
+      "influence function",
+      influence_function,
+      "Weight of a bond over its length (correspondence model).",
+      choice(Peridynamics::influence_function_names()));
+    prm.add_parameter(
+      "coupling",
+      coupling,
+      "consistent: exact patch test on any mesh. energy blending, force "
+      "blending: classical, uncorrected, with ghost forces; for comparison.",
+      choice(Coupling::scheme_names()));
+    prm.add_parameter("stabilization",
+                      stabilization,
+                      "gamma [-] of the zero-energy stabilisation; 1 fits all, "
+                      "the entry exists for studies.",
+                      Double(0.));
+    prm.leave_subsection();
 
-  prm.enter_subsection("Boundary conditions");
-  prm.add_parameter("symmetry",
-                    symmetry,
-                    "Plane boundaries whose normal displacement is zero: "
-                    "left, bottom.",
-                    Anything());
-  prm.add_parameter("displacement",
-                    displacement,
-                    "Prescribed displacement: top: x = 0, y = 0.1*t; ...",
-                    Anything());
-  prm.add_parameter("traction",
-                    traction,
-                    "Force per area on boundaries: right: x = 10; ...",
-                    Anything());
-  prm.add_parameter("pressure",
-                    pressure,
-                    "Pressure against the outward normal: hole: 5; ...",
-                    Anything());
-  prm.add_parameter("body force",
-                    body_force,
-                    "Force per volume: y = -9.81, or volume NAME: y = -1; ...",
-                    Anything());
-  prm.add_parameter("point displacement",
-                    point_displacement,
-                    "Displacement of the node nearest to a point: 0 0: x = 0, "
-                    "y = 0; ...",
-                    Anything());
-  prm.add_parameter("point force",
-                    point_force,
-                    "Force at the node nearest to a point: 4 0: y = -1; ...",
-                    Anything());
-  prm.add_parameter("remove rigid motion",
-                    remove_rigid_motion,
-                    "Take out rigid motions that no support prevents (the "
-                    "loads must be in balance).",
-                    Bool());
-  prm.leave_subsection();
+    prm.enter_subsection("Boundary conditions");
+    prm.add_parameter("symmetry",
+                      symmetry,
+                      "Plane boundaries whose normal displacement is zero: "
+                      "left, bottom.",
+                      Anything());
+    prm.add_parameter("displacement",
+                      displacement,
+                      "Prescribed displacement: top: x = 0, y = 0.1*t; ...",
+                      Anything());
+    prm.add_parameter("traction",
+                      traction,
+                      "Force per area on boundaries: right: x = 10; ...",
+                      Anything());
+    prm.add_parameter("pressure",
+                      pressure,
+                      "Pressure against the outward normal: hole: 5; ...",
+                      Anything());
+    prm.add_parameter(
+      "body force",
+      body_force,
+      "Force per volume: y = -9.81, or volume NAME: y = -1; ...",
+      Anything());
+    prm.add_parameter(
+      "point displacement",
+      point_displacement,
+      "Displacement of the node nearest to a point: 0 0: x = 0, "
+      "y = 0; ...",
+      Anything());
+    prm.add_parameter("point force",
+                      point_force,
+                      "Force at the node nearest to a point: 4 0: y = -1; ...",
+                      Anything());
+    prm.add_parameter("remove rigid motion",
+                      remove_rigid_motion,
+                      "Take out rigid motions that no support prevents (the "
+                      "loads must be in balance).",
+                      Bool());
+    prm.leave_subsection();
 
-  prm.enter_subsection("Load steps");
-  prm.add_parameter("number of steps",
-                    n_steps,
-                    "t runs from 0 to the end time in this many equal steps.",
-                    Integer(1));
-  prm.add_parameter("end time", end_time, "Last value of t.", PositiveDouble());
-  prm.leave_subsection();
+    prm.enter_subsection("Load steps");
+    prm.add_parameter("number of steps",
+                      n_steps,
+                      "t runs from 0 to the end time in this many equal steps.",
+                      Integer(1));
+    prm.add_parameter("end time",
+                      end_time,
+                      "Last value of t.",
+                      PositiveDouble());
+    prm.leave_subsection();
 
-  prm.enter_subsection("Expressions");
-  prm.add_parameter("constants",
-                    constants,
-                    "Names usable in every expression: a = 2.5, S = 10.",
-                    Anything());
-  prm.leave_subsection();
+    prm.enter_subsection("Expressions");
+    prm.add_parameter("constants",
+                      constants,
+                      "Names usable in every expression: a = 2.5, S = 10.",
+                      Anything());
+    prm.leave_subsection();
 
-  prm.enter_subsection("Solver");
-  prm.add_parameter("linear solver",
-                    linear_solver,
-                    "automatic: by expected cost.",
-                    choice({"automatic", "direct", "iterative"}));
-  prm.add_parameter("tangent",
-                    tangent,
-                    "How the peridynamic tangent is applied by an iterative "
-                    "solver.",
-                    choice({"automatic", "assembled", "matrix-free"}));
-  prm.add_parameter("linear tolerance",
-                    linear_tolerance,
-                    "Relative residual at which the iterative solver stops.",
-                    Double(1e-15, 1e-2));
-  prm.add_parameter("Newton tolerance",
-                    newton_tolerance,
-                    "Out-of-balance force relative to the largest of loads, "
-                    "reactions and internal forces.",
-                    Double(1e-14, 1e-2));
-  prm.add_parameter("maximum Newton iterations",
-                    maximum_newton_iterations,
-                    "Give up after this many.",
-                    Integer(1));
-  prm.leave_subsection();
+    prm.enter_subsection("Solver");
+    prm.add_parameter("linear solver",
+                      linear_solver,
+                      "automatic: by expected cost.",
+                      choice({"automatic", "direct", "iterative"}));
+    prm.add_parameter("tangent",
+                      tangent,
+                      "How the peridynamic tangent is applied by an iterative "
+                      "solver.",
+                      choice({"automatic", "assembled", "matrix-free"}));
+    prm.add_parameter("linear tolerance",
+                      linear_tolerance,
+                      "Relative residual at which the iterative solver stops.",
+                      Double(1e-15, 1e-2));
+    prm.add_parameter("Newton tolerance",
+                      newton_tolerance,
+                      "Out-of-balance force relative to the largest of loads, "
+                      "reactions and internal forces.",
+                      Double(1e-14, 1e-2));
+    prm.add_parameter("maximum Newton iterations",
+                      maximum_newton_iterations,
+                      "Give up after this many.",
+                      Integer(1));
+    prm.leave_subsection();
 
-  prm.enter_subsection("Quantities");
-  prm.add_parameter("stress concentration",
-                    stress_concentration,
-                    "Boundary whose largest principal stress is compared with "
-                    "the nominal stress: stress_concentration.",
-                    Anything());
-  prm.add_parameter("nominal stress",
-                    nominal_stress,
-                    "A number, or 'reaction of NAME': mean stress on that "
-                    "boundary.",
-                    Anything());
-  prm.add_parameter("deflection",
-                    deflection,
-                    "Displacement component at a point: tip: 4 0, y gives "
-                    "tip_deflection.",
-                    Anything());
-  prm.add_parameter("stress ratio",
-                    stress_ratio,
-                    "Stress component over nominal stress: root: 22.5 0 0, yy "
-                    "gives root_stress_ratio.",
-                    Anything());
-  prm.add_parameter("point",
-                    point,
-                    "All displacements and stresses at points: corner: 25 25.",
-                    Anything());
-  prm.add_parameter("line",
-                    line,
-                    "Values along lines: equator: 2.5 0 to 25 0, 101 points.",
-                    Anything());
-  prm.add_parameter("circle",
-                    circle,
-                    "Values along circles: ring: center 0 0, radius 3.5, from "
-                    "0 to 90, 91 points (degrees).",
-                    Anything());
-  prm.add_parameter("reaction",
-                    reaction,
-                    "Boundaries whose reaction force is reported: left, right.",
-                    Anything());
-  prm.add_parameter("compare with finite elements",
-                    compare_with_finite_elements,
-                    "Also run pure finite elements on the same mesh and report "
-                    "the differences.",
-                    Bool());
-  prm.leave_subsection();
+    prm.enter_subsection("Quantities");
+    prm.add_parameter(
+      "stress concentration",
+      stress_concentration,
+      "Boundary whose largest principal stress is compared with "
+      "the nominal stress: stress_concentration.",
+      Anything());
+    prm.add_parameter("nominal stress",
+                      nominal_stress,
+                      "A number, or 'reaction of NAME': mean stress on that "
+                      "boundary.",
+                      Anything());
+    prm.add_parameter("deflection",
+                      deflection,
+                      "Displacement component at a point: tip: 4 0, y gives "
+                      "tip_deflection.",
+                      Anything());
+    prm.add_parameter(
+      "stress ratio",
+      stress_ratio,
+      "Stress component over nominal stress: root: 22.5 0 0, yy "
+      "gives root_stress_ratio.",
+      Anything());
+    prm.add_parameter(
+      "point",
+      point,
+      "All displacements and stresses at points: corner: 25 25.",
+      Anything());
+    prm.add_parameter("line",
+                      line,
+                      "Values along lines: equator: 2.5 0 to 25 0, 101 points.",
+                      Anything());
+    prm.add_parameter(
+      "circle",
+      circle,
+      "Values along circles: ring: center 0 0, radius 3.5, from "
+      "0 to 90, 91 points (degrees).",
+      Anything());
+    prm.add_parameter(
+      "reaction",
+      reaction,
+      "Boundaries whose reaction force is reported: left, right.",
+      Anything());
+    prm.add_parameter(
+      "compare with finite elements",
+      compare_with_finite_elements,
+      "Also run pure finite elements on the same mesh and report "
+      "the differences.",
+      Bool());
+    prm.leave_subsection();
 
-  prm.enter_subsection("Reference");
-  prm.add_parameter("values",
-                    reference_values,
-                    "Reference of quantities: stress_concentration = 3.0861.",
-                    Anything());
-  prm.add_parameter("displacement",
-                    reference_displacement,
-                    "Exact displacement field x = ..., y = ...: gives "
-                    "relative_displacement_error and relative_energy_error.",
-                    Anything());
-  prm.add_parameter("data",
-                    reference_data,
-                    "CSV files with reference values at points: ring: "
-                    "reference/ring.csv; gives ring_stt_error...",
-                    Anything());
-  prm.add_parameter("source",
-                    reference_source,
-                    "Where the references come from, free text.",
-                    Anything());
-  prm.leave_subsection();
+    prm.enter_subsection("Reference");
+    prm.add_parameter("values",
+                      reference_values,
+                      "Reference of quantities: stress_concentration = 3.0861.",
+                      Anything());
+    prm.add_parameter("displacement",
+                      reference_displacement,
+                      "Exact displacement field x = ..., y = ...: gives "
+                      "relative_displacement_error and relative_energy_error.",
+                      Anything());
+    prm.add_parameter("data",
+                      reference_data,
+                      "CSV files with reference values at points: ring: "
+                      "reference/ring.csv; gives ring_stt_error...",
+                      Anything());
+    prm.add_parameter("source",
+                      reference_source,
+                      "Where the references come from, free text.",
+                      Anything());
+    prm.leave_subsection();
 
-  prm.enter_subsection("Output");
-  prm.add_parameter("fields",
-                    write_fields,
-                    "Write solution.pvd for ParaView.",
-                    Bool());
-  prm.add_parameter("stress",
-                    write_stress,
-                    "Recover the stress at every node for the fields.",
-                    Bool());
-  prm.add_parameter("particles",
-                    write_particles,
-                    "Write particles.pvd for ParaView.",
-                    Bool());
-  prm.leave_subsection();
-}
+    prm.enter_subsection("Output");
+    prm.add_parameter("fields",
+                      write_fields,
+                      "Write solution.pvd for ParaView.",
+                      Bool());
+    prm.add_parameter("stress",
+                      write_stress,
+                      "Recover the stress at every node for the fields.",
+                      Bool());
+    prm.add_parameter("particles",
+                      write_particles,
+                      "Write particles.pvd for ParaView.",
+                      Bool());
+    prm.leave_subsection();
+  }
 } // namespace Perimorph::Application

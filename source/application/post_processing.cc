@@ -10,447 +10,449 @@
 
 namespace Perimorph::Application
 {
-namespace
-{
-constexpr char letters[] = "xyz";
+  namespace
+  {
+    constexpr char letters[] = "xyz";
 
-template <int dim>
-dealii::Point<dim>
-to_point(const std::vector<double> &coordinates)
-{
-  dealii::Point<dim> point;
-  for (int d = 0; d < dim; ++d)
-    point[d] = coordinates[d];
-  return point;
-}
-
-template <int dim>
-double
-stress_component(const Fracture::Stress<dim> &stress, const std::string &name)
-{
-  const unsigned int a = name[0] - 'x', b = name[1] - 'x';
-  return a < dim && b < dim ? stress.in_plane[a][b] : stress.out_of_plane;
-}
-
-/// Hoop stresses are taken about the centre of the circle of that name.
-template <int dim>
-dealii::Point<dim>
-center_of(const std::string                          &name,
-          const std::vector<Parameters::ProbeCircle> &circles)
-{
-  for (const auto &circle : circles)
-    if (circle.name == name)
-      return to_point<dim>(circle.center);
-  return dealii::Point<dim>();
-}
-} // namespace
-
-template <int dim>
-PostProcessing<dim>::PostProcessing(
-  const SimulationParameters<dim>    &parameters,
-  const Mesh::DistributedMesh<dim>   &mesh,
-  const Coupling::BodyMaterials<dim> &materials,
-  const Fem::Supports<dim>           &supports)
-  : parameters(parameters)
-  , mesh(mesh)
-  , materials(materials)
-  , supports(supports)
-{
-  std::vector<Fracture::MirrorPlane<dim>> planes;
-  for (const auto &plane : supports.symmetry_planes())
-    planes.push_back({plane.point, plane.normal, plane.nodes});
-  fit = std::make_unique<Fracture::DisplacementFit<dim>>(mesh.nodal(), planes);
-  recovery =
-    std::make_unique<Fracture::NodalStress<dim>>(*fit, materials.laws);
-  probe = std::make_unique<Fracture::PointProbe<dim>>(*recovery);
-  Base::InputErrorCollector errors;
-  check(errors);
-  errors.throw_if_any();
-}
-
-template <int dim>
-PostProcessing<dim>::~PostProcessing() = default;
-
-template <int dim>
-void
-PostProcessing<dim>::check(Base::InputErrorCollector &errors)
-{
-  const auto collect = [&errors](const std::string &where,
-                                 const auto        &action) {
-    try
-      {
-        action();
-      }
-    catch (const Base::InputError &error)
-      {
-        for (const auto &message : error.messages())
-          errors.add(where.empty() ? message :
-                                     "parameter '" + where + "': " + message);
-      }
-  };
-  const auto boundary = [&](const std::string &name,
-                            const std::string &entry) {
-    collect("", [&]() {
-      mesh.boundary(name, "parameter 'Quantities / " + entry + "'");
-    });
-  };
-  const auto inside = [&](const dealii::Point<dim> &point,
-                          const std::string        &entry) {
-    collect(entry, [&]() { probe->locate(point); });
-  };
-  if (!parameters.stress_concentration.empty())
-    boundary(parameters.stress_concentration, "stress concentration");
-  if (!parameters.nominal_stress.reaction_of.empty())
-    boundary(parameters.nominal_stress.reaction_of, "nominal stress");
-  for (const auto &name : parameters.reactions)
-    boundary(name, "reaction");
-  for (const auto &point : parameters.deflections)
-    inside(to_point<dim>(point.point), "Quantities / deflection");
-  for (const auto &point : parameters.stress_ratios)
-    inside(to_point<dim>(point.point), "Quantities / stress ratio");
-  for (const auto &point : parameters.points)
-    inside(to_point<dim>(point.point), "Quantities / point");
-  for (const auto &line : parameters.lines)
-    collect("Quantities / line", [&]() {
-      for (const auto &point :
-           Fracture::line_points<dim>(to_point<dim>(line.from),
-                                      to_point<dim>(line.to),
-                                      line.n_points))
-        probe->locate(point);
-    });
-  for (const auto &circle : parameters.circles)
-    collect("Quantities / circle", [&]() {
-      for (const auto &point :
-           Fracture::circle_points<dim>(to_point<dim>(circle.center),
-                                        circle.radius,
-                                        circle.from_degrees,
-                                        circle.to_degrees,
-                                        circle.n_points))
-        probe->locate(point);
-    });
-  for (const auto &data : parameters.reference_data)
-    collect("Reference / data", [&]() {
-      auto table = Fracture::read_reference_data<dim>(data.file);
-      for (const auto &point : table.points)
-        probe->locate(point);
-      reference_data.push_back(std::move(table));
-    });
-  if (parameters.has_reference_displacement)
-    for (int d = 0; d < dim; ++d)
-      if (parameters.reference_displacement[d])
-        for (const auto &node : mesh.nodal().nodes)
-          if (!parameters.reference_displacement[d]->check_finite(
-                node, parameters.end_time, errors))
-            break;
-
-  const auto names = expected_names();
-  for (const auto &reference : parameters.reference_values)
-    if (errors.empty() &&
-        std::find(names.begin(), names.end(), reference.first) == names.end())
-      errors.add_parameter("Reference / values",
-                           "'" + reference.first +
-                             "', which this run does not compute" +
-                             Base::did_you_mean(reference.first, names),
-                           "a quantity of this run");
-}
-
-template <int dim>
-std::vector<std::string>
-PostProcessing<dim>::expected_names() const
-{
-  std::vector<std::string> names = {"strain_energy"};
-  const auto add_point_names     = [&names](const std::string &name) {
-    for (int d = 0; d < dim; ++d)
-      names.push_back(name + "_displacement_" + letters[d]);
-    for (const auto &component : Parameters::stress_components(dim))
-      names.push_back(name + "_stress_" + component);
-  };
-  if (!parameters.stress_concentration.empty())
+    template <int dim>
+    dealii::Point<dim>
+    to_point(const std::vector<double> &coordinates)
     {
-      names.push_back("stress_concentration");
+      dealii::Point<dim> point;
       for (int d = 0; d < dim; ++d)
-        names.push_back(std::string("stress_concentration_position_") +
-                        letters[d]);
+        point[d] = coordinates[d];
+      return point;
     }
-  if (!parameters.nominal_stress.reaction_of.empty())
-    names.push_back("nominal_stress");
-  for (const auto &entry : parameters.deflections)
-    names.push_back(entry.name + "_deflection");
-  for (const auto &entry : parameters.stress_ratios)
-    names.push_back(entry.name + "_stress_ratio");
-  for (const auto &entry : parameters.points)
-    add_point_names(entry.name);
-  for (const auto &name : parameters.reactions)
-    for (int d = 0; d < dim; ++d)
-      names.push_back("reaction_" + name + "_" + letters[d]);
-  for (unsigned int k = 0; k < reference_data.size(); ++k)
-    for (const auto &column : reference_data[k].columns)
-      names.push_back(parameters.reference_data[k].name + "_" + column +
-                      "_error");
-  if (parameters.has_reference_displacement)
+
+    template <int dim>
+    double
+    stress_component(const Fracture::Stress<dim> &stress,
+                     const std::string           &name)
     {
-      names.push_back("relative_displacement_error");
-      names.push_back("relative_energy_error");
-      names.push_back("relative_maximum_error");
+      const unsigned int a = name[0] - 'x', b = name[1] - 'x';
+      return a < dim && b < dim ? stress.in_plane[a][b] : stress.out_of_plane;
     }
-  return names;
-}
 
-template <int dim>
-double
-PostProcessing<dim>::reaction_at(const unsigned int dof,
-                                 const State<dim>  &state) const
-{
-  if (supports.entries().count(dof) == 0)
-    return 0.;
-  return state.internal_force[dof / dim][dof % dim] -
-         state.external_force[dof / dim][dof % dim];
-}
-
-template <int dim>
-dealii::Tensor<1, dim>
-PostProcessing<dim>::reaction(const std::string &boundary,
-                              const State<dim>  &state) const
-{
-  dealii::Tensor<1, dim> sum;
-  for (const unsigned int node : mesh.boundary_nodes(boundary, "reaction"))
-    for (int d = 0; d < dim; ++d)
-      sum[d] += reaction_at(dim * node + d, state);
-  return sum;
-}
-
-template <int dim>
-double
-PostProcessing<dim>::nominal_stress(const State<dim> &state) const
-{
-  if (parameters.nominal_stress.value)
-    return *parameters.nominal_stress.value;
-  const auto &name = parameters.nominal_stress.reaction_of;
-  if (name.empty())
-    return 1.;
-  // Mean normal stress: tension positive.
-  const auto            &nodal = mesh.nodal();
-  dealii::Tensor<1, dim> area;
-  for (const unsigned int f : mesh.boundary(name, "nominal stress"))
-    for (const auto &normal :
-         Fem::FaceGeometry<dim>(nodal, nodal.boundary_faces[f]).normal_jxw)
-      area += normal;
-  return reaction(name, state) * area / area.norm_square();
-}
-
-template <int dim>
-void
-PostProcessing<dim>::add_point(const std::string          &name,
-                               const dealii::Point<dim>   &point,
-                               const State<dim>           &state,
-                               std::vector<NamedQuantity> &list) const
-{
-  const auto u      = probe->displacement_at(point, state.displacement);
-  const auto stress = probe->stress_at(point, state.displacement);
-  for (int d = 0; d < dim; ++d)
-    list.push_back({name + "_displacement_" + letters[d], u[d], "length"});
-  for (const auto &component : Parameters::stress_components(dim))
-    list.push_back({name + "_stress_" + component,
-                    stress_component(stress, component),
-                    "stress"});
-}
-
-template <int dim>
-std::vector<NamedQuantity>
-PostProcessing<dim>::evaluate(const State<dim> &state) const
-{
-  std::vector<NamedQuantity> list;
-  const double               nominal = nominal_stress(state);
-  if (!parameters.stress_concentration.empty())
+    /// Hoop stresses are taken about the centre of the circle of that name.
+    template <int dim>
+    dealii::Point<dim>
+    center_of(const std::string                          &name,
+              const std::vector<Parameters::ProbeCircle> &circles)
     {
-      const auto nodes =
-        mesh.boundary_nodes(parameters.stress_concentration,
-                            "stress concentration");
-      const auto result =
-        Fracture::stress_concentration(*recovery,
-                                       nodes,
-                                       state.displacement,
-                                       nominal == 0. ? 1. : nominal,
-                                       parameters.stress_concentration,
-                                       mesh.communicator());
-      list.push_back({"stress_concentration", result.value, "-"});
-      for (int d = 0; d < dim; ++d)
-        list.push_back({std::string("stress_concentration_position_") +
-                          letters[d],
-                        result.position[d],
-                        "length"});
+      for (const auto &circle : circles)
+        if (circle.name == name)
+          return to_point<dim>(circle.center);
+      return dealii::Point<dim>();
     }
-  if (!parameters.nominal_stress.reaction_of.empty())
-    list.push_back({"nominal_stress", nominal, "stress"});
-  for (const auto &entry : parameters.deflections)
-    list.push_back({entry.name + "_deflection",
-                    probe->displacement_at(to_point<dim>(entry.point),
-                                           state.displacement)
-                      [entry.component[0] - 'x'],
-                    "length"});
-  for (const auto &entry : parameters.stress_ratios)
-    list.push_back(
-      {entry.name + "_stress_ratio",
-       stress_component(probe->stress_at(to_point<dim>(entry.point),
-                                         state.displacement),
-                        entry.component) /
-         (nominal == 0. ? 1. : nominal),
-       "-"});
-  for (const auto &entry : parameters.points)
-    add_point(entry.name, to_point<dim>(entry.point), state, list);
-  for (const auto &name : parameters.reactions)
-    {
-      const auto force = reaction(name, state);
-      for (int d = 0; d < dim; ++d)
-        list.push_back(
-          {"reaction_" + name + "_" + letters[d], force[d], "force"});
-    }
-  list.push_back({"strain_energy", state.strain_energy, "energy"});
+  } // namespace
 
-  for (unsigned int k = 0; k < reference_data.size(); ++k)
-    {
-      const auto &name  = parameters.reference_data[k].name;
-      const auto  table = probe->evaluate(reference_data[k].points,
-                                         state.displacement,
-                                         center_of<dim>(name,
-                                                        parameters.circles));
-      for (const auto &error :
-           Fracture::relative_errors<dim>(table, reference_data[k]))
-        list.push_back({name + "_" + error.first + "_error", error.second, "-"});
-    }
-  if (parameters.has_reference_displacement)
-    {
-      const auto exact = reference_displacement();
-      auto       error = state.displacement;
-      for (unsigned int n = 0; n < error.size(); ++n)
-        error[n] -= exact[n];
-      const auto norms = Fracture::error_norms<dim>(mesh.nodal(),
-                                                    materials.laws,
-                                                    error,
-                                                    exact,
-                                                    mesh.communicator());
-      list.push_back({"relative_displacement_error", norms.l2, "-"});
-      list.push_back({"relative_energy_error", norms.energy, "-"});
-      list.push_back({"relative_maximum_error", norms.maximum, "-"});
-    }
-  return list;
-}
+  template <int dim>
+  PostProcessing<dim>::PostProcessing(
+    const SimulationParameters<dim>    &parameters,
+    const Mesh::DistributedMesh<dim>   &mesh,
+    const Coupling::BodyMaterials<dim> &materials,
+    const Fem::Supports<dim>           &supports)
+    : parameters(parameters)
+    , mesh(mesh)
+    , materials(materials)
+    , supports(supports)
+  {
+    std::vector<Fracture::MirrorPlane<dim>> planes;
+    for (const auto &plane : supports.symmetry_planes())
+      planes.push_back({plane.point, plane.normal, plane.nodes});
+    fit =
+      std::make_unique<Fracture::DisplacementFit<dim>>(mesh.nodal(), planes);
+    recovery =
+      std::make_unique<Fracture::NodalStress<dim>>(*fit, materials.laws);
+    probe = std::make_unique<Fracture::PointProbe<dim>>(*recovery);
+    Base::InputErrorCollector errors;
+    check(errors);
+    errors.throw_if_any();
+  }
 
-template <int dim>
-std::vector<std::string>
-PostProcessing<dim>::write_probes(const State<dim>  &state,
-                                  const std::string &folder) const
-{
-  std::vector<std::string> files;
-  const auto               write = [&](const std::string             &name,
-                         const std::vector<dealii::Point<dim>> &points,
-                         const dealii::Point<dim>              &center) {
-    Fracture::write_probe(probe->evaluate(points, state.displacement, center),
-                          folder,
-                          name,
-                          mesh.communicator());
-    files.push_back("probe_" + name + ".csv");
-  };
-  if (!parameters.points.empty())
-    {
-      std::vector<dealii::Point<dim>> points;
-      for (const auto &entry : parameters.points)
-        points.push_back(to_point<dim>(entry.point));
-      write("points", points, dealii::Point<dim>());
-    }
-  for (const auto &line : parameters.lines)
-    write(line.name,
-          Fracture::line_points<dim>(to_point<dim>(line.from),
-                                     to_point<dim>(line.to),
-                                     line.n_points),
-          dealii::Point<dim>());
-  for (const auto &circle : parameters.circles)
-    write(circle.name,
-          Fracture::circle_points<dim>(to_point<dim>(circle.center),
-                                       circle.radius,
-                                       circle.from_degrees,
-                                       circle.to_degrees,
-                                       circle.n_points),
-          to_point<dim>(circle.center));
-  return files;
-}
+  template <int dim>
+  PostProcessing<dim>::~PostProcessing() = default;
 
-template <int dim>
-std::vector<Fracture::Stress<dim>>
-PostProcessing<dim>::nodal_stress(const State<dim> &state) const
-{
-  const auto               &nodal = mesh.nodal();
-  std::vector<unsigned int> owned;
-  for (unsigned int n = nodal.owned_begin; n < nodal.owned_end; ++n)
-    owned.push_back(n);
-  const auto local = recovery->at_nodes(owned, state.displacement);
-
-  // Complete arrays by adding zeros from the other ranks.
-  constexpr unsigned int n_components = dim * (dim + 1) / 2 + 1;
-  std::vector<double>    values(n_components * nodal.n_nodes(), 0.);
-  for (unsigned int k = 0; k < owned.size(); ++k)
-    {
-      for (unsigned int c = 0; c + 1 < n_components; ++c)
-        values[n_components * owned[k] + c] =
-          local[k].in_plane.access_raw_entry(c);
-      values[n_components * owned[k] + n_components - 1] =
-        local[k].out_of_plane;
-    }
-  if (dealii::Utilities::MPI::n_mpi_processes(mesh.communicator()) > 1)
-    dealii::Utilities::MPI::sum(values, mesh.communicator(), values);
-  std::vector<Fracture::Stress<dim>> all(nodal.n_nodes());
-  for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
-    {
-      for (unsigned int c = 0; c + 1 < n_components; ++c)
-        all[n].in_plane.access_raw_entry(c) = values[n_components * n + c];
-      all[n].out_of_plane = values[n_components * n + n_components - 1];
-    }
-  return all;
-}
-
-template <int dim>
-std::vector<dealii::Tensor<1, dim>>
-PostProcessing<dim>::reference_displacement() const
-{
-  std::vector<dealii::Tensor<1, dim>> exact;
-  if (!parameters.has_reference_displacement)
-    return exact;
-  for (const auto &node : mesh.nodal().nodes)
-    {
-      exact.emplace_back();
+  template <int dim>
+  void
+  PostProcessing<dim>::check(Base::InputErrorCollector &errors)
+  {
+    const auto collect = [&errors](const std::string &where,
+                                   const auto        &action) {
+      try
+        {
+          action();
+        }
+      catch (const Base::InputError &error)
+        {
+          for (const auto &message : error.messages())
+            errors.add(where.empty() ? message
+                                     : "parameter '" + where + "': " + message);
+        }
+    };
+    const auto boundary = [&](const std::string &name,
+                              const std::string &entry) {
+      collect("", [&]() {
+        mesh.boundary(name, "parameter 'Quantities / " + entry + "'");
+      });
+    };
+    const auto inside = [&](const dealii::Point<dim> &point,
+                            const std::string        &entry) {
+      collect(entry, [&]() { probe->locate(point); });
+    };
+    if (!parameters.stress_concentration.empty())
+      boundary(parameters.stress_concentration, "stress concentration");
+    if (!parameters.nominal_stress.reaction_of.empty())
+      boundary(parameters.nominal_stress.reaction_of, "nominal stress");
+    for (const auto &name : parameters.reactions)
+      boundary(name, "reaction");
+    for (const auto &point : parameters.deflections)
+      inside(to_point<dim>(point.point), "Quantities / deflection");
+    for (const auto &point : parameters.stress_ratios)
+      inside(to_point<dim>(point.point), "Quantities / stress ratio");
+    for (const auto &point : parameters.points)
+      inside(to_point<dim>(point.point), "Quantities / point");
+    for (const auto &line : parameters.lines)
+      collect("Quantities / line", [&]() {
+        for (const auto &point :
+             Fracture::line_points<dim>(to_point<dim>(line.from),
+                                        to_point<dim>(line.to),
+                                        line.n_points))
+          probe->locate(point);
+      });
+    for (const auto &circle : parameters.circles)
+      collect("Quantities / circle", [&]() {
+        for (const auto &point :
+             Fracture::circle_points<dim>(to_point<dim>(circle.center),
+                                          circle.radius,
+                                          circle.from_degrees,
+                                          circle.to_degrees,
+                                          circle.n_points))
+          probe->locate(point);
+      });
+    for (const auto &data : parameters.reference_data)
+      collect("Reference / data", [&]() {
+        auto table = Fracture::read_reference_data<dim>(data.file);
+        for (const auto &point : table.points)
+          probe->locate(point);
+        reference_data.push_back(std::move(table));
+      });
+    if (parameters.has_reference_displacement)
       for (int d = 0; d < dim; ++d)
         if (parameters.reference_displacement[d])
-          exact.back()[d] =
-            parameters.reference_displacement[d]->value(node,
-                                                        parameters.end_time);
-    }
-  return exact;
-}
+          for (const auto &node : mesh.nodal().nodes)
+            if (!parameters.reference_displacement[d]
+                   ->check_finite(node, parameters.end_time, errors))
+              break;
 
-template <int dim>
-double
-PostProcessing<dim>::imbalance(const State<dim> &state) const
-{
-  const auto            &nodal = mesh.nodal();
-  dealii::Tensor<1, dim> force;
-  dealii::Tensor<2, dim> moment;
-  double                 magnitude = 0., lever = 0.;
-  for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
-    {
-      auto outer = state.external_force[n];
+    const auto names = expected_names();
+    for (const auto &reference : parameters.reference_values)
+      if (errors.empty() &&
+          std::find(names.begin(), names.end(), reference.first) == names.end())
+        errors.add_parameter("Reference / values",
+                             "'" + reference.first +
+                               "', which this run does not compute" +
+                               Base::did_you_mean(reference.first, names),
+                             "a quantity of this run");
+  }
+
+  template <int dim>
+  std::vector<std::string>
+  PostProcessing<dim>::expected_names() const
+  {
+    std::vector<std::string> names = {"strain_energy"};
+    const auto add_point_names     = [&names](const std::string &name) {
       for (int d = 0; d < dim; ++d)
-        outer[d] += reaction_at(dim * n + d, state);
-      const dealii::Tensor<1, dim> arm = nodal.nodes[n] - nodal.nodes[0];
-      force += outer;
-      moment += outer_product(arm, outer) - outer_product(outer, arm);
-      magnitude += outer.norm();
-      lever += arm.norm() * outer.norm();
-    }
-  return magnitude > 0. ?
-           std::max(force.norm() / magnitude, moment.norm() / lever) :
-           0.;
-}
+        names.push_back(name + "_displacement_" + letters[d]);
+      for (const auto &component : Parameters::stress_components(dim))
+        names.push_back(name + "_stress_" + component);
+    };
+    if (!parameters.stress_concentration.empty())
+      {
+        names.push_back("stress_concentration");
+        for (int d = 0; d < dim; ++d)
+          names.push_back(std::string("stress_concentration_position_") +
+                          letters[d]);
+      }
+    if (!parameters.nominal_stress.reaction_of.empty())
+      names.push_back("nominal_stress");
+    for (const auto &entry : parameters.deflections)
+      names.push_back(entry.name + "_deflection");
+    for (const auto &entry : parameters.stress_ratios)
+      names.push_back(entry.name + "_stress_ratio");
+    for (const auto &entry : parameters.points)
+      add_point_names(entry.name);
+    for (const auto &name : parameters.reactions)
+      for (int d = 0; d < dim; ++d)
+        names.push_back("reaction_" + name + "_" + letters[d]);
+    for (unsigned int k = 0; k < reference_data.size(); ++k)
+      for (const auto &column : reference_data[k].columns)
+        names.push_back(parameters.reference_data[k].name + "_" + column +
+                        "_error");
+    if (parameters.has_reference_displacement)
+      {
+        names.push_back("relative_displacement_error");
+        names.push_back("relative_energy_error");
+        names.push_back("relative_maximum_error");
+      }
+    return names;
+  }
 
-template class PostProcessing<2>;
-template class PostProcessing<3>;
+  template <int dim>
+  double
+  PostProcessing<dim>::reaction_at(const unsigned int dof,
+                                   const State<dim>  &state) const
+  {
+    if (supports.entries().count(dof) == 0)
+      return 0.;
+    return state.internal_force[dof / dim][dof % dim] -
+           state.external_force[dof / dim][dof % dim];
+  }
+
+  template <int dim>
+  dealii::Tensor<1, dim>
+  PostProcessing<dim>::reaction(const std::string &boundary,
+                                const State<dim>  &state) const
+  {
+    dealii::Tensor<1, dim> sum;
+    for (const unsigned int node : mesh.boundary_nodes(boundary, "reaction"))
+      for (int d = 0; d < dim; ++d)
+        sum[d] += reaction_at(dim * node + d, state);
+    return sum;
+  }
+
+  template <int dim>
+  double
+  PostProcessing<dim>::nominal_stress(const State<dim> &state) const
+  {
+    if (parameters.nominal_stress.value)
+      return *parameters.nominal_stress.value;
+    const auto &name = parameters.nominal_stress.reaction_of;
+    if (name.empty())
+      return 1.;
+    // Mean normal stress: tension positive.
+    const auto            &nodal = mesh.nodal();
+    dealii::Tensor<1, dim> area;
+    for (const unsigned int f : mesh.boundary(name, "nominal stress"))
+      for (const auto &normal :
+           Fem::FaceGeometry<dim>(nodal, nodal.boundary_faces[f]).normal_jxw)
+        area += normal;
+    return reaction(name, state) * area / area.norm_square();
+  }
+
+  template <int dim>
+  void
+  PostProcessing<dim>::add_point(const std::string          &name,
+                                 const dealii::Point<dim>   &point,
+                                 const State<dim>           &state,
+                                 std::vector<NamedQuantity> &list) const
+  {
+    const auto u      = probe->displacement_at(point, state.displacement);
+    const auto stress = probe->stress_at(point, state.displacement);
+    for (int d = 0; d < dim; ++d)
+      list.push_back({name + "_displacement_" + letters[d], u[d], "length"});
+    for (const auto &component : Parameters::stress_components(dim))
+      list.push_back({name + "_stress_" + component,
+                      stress_component(stress, component),
+                      "stress"});
+  }
+
+  template <int dim>
+  std::vector<NamedQuantity>
+  PostProcessing<dim>::evaluate(const State<dim> &state) const
+  {
+    std::vector<NamedQuantity> list;
+    const double               nominal = nominal_stress(state);
+    if (!parameters.stress_concentration.empty())
+      {
+        const auto nodes = mesh.boundary_nodes(parameters.stress_concentration,
+                                               "stress concentration");
+        const auto result =
+          Fracture::stress_concentration(*recovery,
+                                         nodes,
+                                         state.displacement,
+                                         nominal == 0. ? 1. : nominal,
+                                         parameters.stress_concentration,
+                                         mesh.communicator());
+        list.push_back({"stress_concentration", result.value, "-"});
+        for (int d = 0; d < dim; ++d)
+          list.push_back(
+            {std::string("stress_concentration_position_") + letters[d],
+             result.position[d],
+             "length"});
+      }
+    if (!parameters.nominal_stress.reaction_of.empty())
+      list.push_back({"nominal_stress", nominal, "stress"});
+    for (const auto &entry : parameters.deflections)
+      list.push_back(
+        {entry.name + "_deflection",
+         probe->displacement_at(to_point<dim>(entry.point),
+                                state.displacement)[entry.component[0] - 'x'],
+         "length"});
+    for (const auto &entry : parameters.stress_ratios)
+      list.push_back(
+        {entry.name + "_stress_ratio",
+         stress_component(
+           probe->stress_at(to_point<dim>(entry.point), state.displacement),
+           entry.component) /
+           (nominal == 0. ? 1. : nominal),
+         "-"});
+    for (const auto &entry : parameters.points)
+      add_point(entry.name, to_point<dim>(entry.point), state, list);
+    for (const auto &name : parameters.reactions)
+      {
+        const auto force = reaction(name, state);
+        for (int d = 0; d < dim; ++d)
+          list.push_back(
+            {"reaction_" + name + "_" + letters[d], force[d], "force"});
+      }
+    list.push_back({"strain_energy", state.strain_energy, "energy"});
+
+    for (unsigned int k = 0; k < reference_data.size(); ++k)
+      {
+        const auto &name = parameters.reference_data[k].name;
+        const auto  table =
+          probe->evaluate(reference_data[k].points,
+                          state.displacement,
+                          center_of<dim>(name, parameters.circles));
+        for (const auto &error :
+             Fracture::relative_errors<dim>(table, reference_data[k]))
+          list.push_back(
+            {name + "_" + error.first + "_error", error.second, "-"});
+      }
+    if (parameters.has_reference_displacement)
+      {
+        const auto exact = reference_displacement();
+        auto       error = state.displacement;
+        for (unsigned int n = 0; n < error.size(); ++n)
+          error[n] -= exact[n];
+        const auto norms = Fracture::error_norms<dim>(mesh.nodal(),
+                                                      materials.laws,
+                                                      error,
+                                                      exact,
+                                                      mesh.communicator());
+        list.push_back({"relative_displacement_error", norms.l2, "-"});
+        list.push_back({"relative_energy_error", norms.energy, "-"});
+        list.push_back({"relative_maximum_error", norms.maximum, "-"});
+      }
+    return list;
+  }
+
+  template <int dim>
+  std::vector<std::string>
+  PostProcessing<dim>::write_probes(const State<dim>  &state,
+                                    const std::string &folder) const
+  {
+    std::vector<std::string> files;
+    const auto               write = [&](const std::string                     &name,
+                           const std::vector<dealii::Point<dim>> &points,
+                           const dealii::Point<dim>              &center) {
+      Fracture::write_probe(probe->evaluate(points, state.displacement, center),
+                            folder,
+                            name,
+                            mesh.communicator());
+      files.push_back("probe_" + name + ".csv");
+    };
+    if (!parameters.points.empty())
+      {
+        std::vector<dealii::Point<dim>> points;
+        for (const auto &entry : parameters.points)
+          points.push_back(to_point<dim>(entry.point));
+        write("points", points, dealii::Point<dim>());
+      }
+    for (const auto &line : parameters.lines)
+      write(line.name,
+            Fracture::line_points<dim>(to_point<dim>(line.from),
+                                       to_point<dim>(line.to),
+                                       line.n_points),
+            dealii::Point<dim>());
+    for (const auto &circle : parameters.circles)
+      write(circle.name,
+            Fracture::circle_points<dim>(to_point<dim>(circle.center),
+                                         circle.radius,
+                                         circle.from_degrees,
+                                         circle.to_degrees,
+                                         circle.n_points),
+            to_point<dim>(circle.center));
+    return files;
+  }
+
+  template <int dim>
+  std::vector<Fracture::Stress<dim>>
+  PostProcessing<dim>::nodal_stress(const State<dim> &state) const
+  {
+    const auto               &nodal = mesh.nodal();
+    std::vector<unsigned int> owned;
+    for (unsigned int n = nodal.owned_begin; n < nodal.owned_end; ++n)
+      owned.push_back(n);
+    const auto local = recovery->at_nodes(owned, state.displacement);
+
+    // Complete arrays by adding zeros from the other ranks.
+    constexpr unsigned int n_components = dim * (dim + 1) / 2 + 1;
+    std::vector<double>    values(n_components * nodal.n_nodes(), 0.);
+    for (unsigned int k = 0; k < owned.size(); ++k)
+      {
+        for (unsigned int c = 0; c + 1 < n_components; ++c)
+          values[n_components * owned[k] + c] =
+            local[k].in_plane.access_raw_entry(c);
+        values[n_components * owned[k] + n_components - 1] =
+          local[k].out_of_plane;
+      }
+    if (dealii::Utilities::MPI::n_mpi_processes(mesh.communicator()) > 1)
+      dealii::Utilities::MPI::sum(values, mesh.communicator(), values);
+    std::vector<Fracture::Stress<dim>> all(nodal.n_nodes());
+    for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
+      {
+        for (unsigned int c = 0; c + 1 < n_components; ++c)
+          all[n].in_plane.access_raw_entry(c) = values[n_components * n + c];
+        all[n].out_of_plane = values[n_components * n + n_components - 1];
+      }
+    return all;
+  }
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  PostProcessing<dim>::reference_displacement() const
+  {
+    std::vector<dealii::Tensor<1, dim>> exact;
+    if (!parameters.has_reference_displacement)
+      return exact;
+    for (const auto &node : mesh.nodal().nodes)
+      {
+        exact.emplace_back();
+        for (int d = 0; d < dim; ++d)
+          if (parameters.reference_displacement[d])
+            exact.back()[d] =
+              parameters.reference_displacement[d]->value(node,
+                                                          parameters.end_time);
+      }
+    return exact;
+  }
+
+  template <int dim>
+  double
+  PostProcessing<dim>::imbalance(const State<dim> &state) const
+  {
+    const auto            &nodal = mesh.nodal();
+    dealii::Tensor<1, dim> force;
+    dealii::Tensor<2, dim> moment;
+    double                 magnitude = 0., lever = 0.;
+    for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
+      {
+        auto outer = state.external_force[n];
+        for (int d = 0; d < dim; ++d)
+          outer[d] += reaction_at(dim * n + d, state);
+        const dealii::Tensor<1, dim> arm = nodal.nodes[n] - nodal.nodes[0];
+        force += outer;
+        moment += outer_product(arm, outer) - outer_product(outer, arm);
+        magnitude += outer.norm();
+        lever += arm.norm() * outer.norm();
+      }
+    return magnitude > 0.
+             ? std::max(force.norm() / magnitude, moment.norm() / lever)
+             : 0.;
+  }
+
+  template class PostProcessing<2>;
+  template class PostProcessing<3>;
 } // namespace Perimorph::Application

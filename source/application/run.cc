@@ -12,113 +12,119 @@
 
 namespace Perimorph::Application
 {
-namespace
-{
-enum ExitCode
-{
-  done         = 0,
-  bad_input    = 2,
-  solve_failed = 3
-};
+  namespace
+  {
+    enum ExitCode
+    {
+      done         = 0,
+      bad_input    = 2,
+      solve_failed = 3
+    };
 
-template <int dim>
-void
-run_dimension(const Parameters::CommandLine &command_line,
-              ParameterTexts                &texts,
-              dealii::ParameterHandler      &prm,
-              Base::InputErrorCollector     &errors,
-              Base::Log                     &log,
-              const MPI_Comm                 communicator)
-{
-  SimulationParameters<dim> parameters(texts,
-                                       command_line.parameter_file,
-                                       errors);
-  errors.throw_if_any();
-  if (!command_line.output.empty())
-    parameters.output_folder = command_line.output;
-  log << "Perimorph " << PERIMORPH_VERSION << ": " << parameters.case_name
-      << " (" << dim << "D, "
-      << dealii::Utilities::MPI::n_mpi_processes(communicator) << " rank"
-      << (dealii::Utilities::MPI::n_mpi_processes(communicator) > 1 ? "s" : "")
-      << ")" << std::endl;
-  Simulation<dim> simulation(parameters, log, communicator);
-  simulation.prepare();
-  if (command_line.validate)
-    {
-      simulation.report_validation();
-      return;
-    }
-  std::ostringstream parameters_text;
-  prm.print_parameters(parameters_text, dealii::ParameterHandler::PRM);
-  simulation.run(parameters_text.str());
-}
+    /// Commented, in the order of a run.
+    const auto print_style = dealii::ParameterHandler::PRM |
+                             dealii::ParameterHandler::KeepDeclarationOrder;
 
-void
-run_checked(const int argc, char **argv, const MPI_Comm communicator)
-{
-  const bool first =
-    dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
-  const auto command_line = Parameters::parse_command_line(argc, argv);
-  if (command_line.help || command_line.version)
+    template <int dim>
+    void
+    run_dimension(const Parameters::CommandLine &command_line,
+                  ParameterTexts                &texts,
+                  dealii::ParameterHandler      &prm,
+                  Base::InputErrorCollector     &errors,
+                  Base::Log                     &log,
+                  const MPI_Comm                 communicator)
     {
-      if (first)
-        std::cout << (command_line.help ?
-                        Parameters::help_text() :
-                        "Perimorph " PERIMORPH_VERSION "\n");
-      return;
-    }
-  ParameterTexts           texts;
-  dealii::ParameterHandler prm;
-  texts.declare(prm);
-  Base::InputErrorCollector errors;
-  if (!command_line.parameter_file.empty())
-    Parameters::read_file(command_line.parameter_file, prm, errors);
-  Parameters::apply_overrides(command_line.overrides, prm, errors);
-  if (command_line.print_parameters)
-    {
+      SimulationParameters<dim> parameters(texts,
+                                           command_line.parameter_file,
+                                           errors);
       errors.throw_if_any();
-      if (first)
-        prm.print_parameters(std::cout, dealii::ParameterHandler::PRM);
-      return;
+      if (!command_line.output.empty())
+        parameters.output_folder = command_line.output;
+      log << "Perimorph " << PERIMORPH_VERSION << ": " << parameters.case_name
+          << " (" << dim << "D, "
+          << dealii::Utilities::MPI::n_mpi_processes(communicator) << " rank"
+          << (dealii::Utilities::MPI::n_mpi_processes(communicator) > 1 ? "s"
+                                                                        : "")
+          << ")" << std::endl;
+      Simulation<dim> simulation(parameters, log, communicator);
+      simulation.prepare();
+      if (command_line.validate)
+        {
+          simulation.report_validation();
+          return;
+        }
+      std::ostringstream parameters_text;
+      prm.print_parameters(parameters_text, print_style);
+      simulation.run(parameters_text.str());
     }
-  Base::Log log(communicator);
-  if (texts.dimension == 2)
-    run_dimension<2>(command_line, texts, prm, errors, log, communicator);
-  else
-    run_dimension<3>(command_line, texts, prm, errors, log, communicator);
-}
-} // namespace
 
-int
-run_program(const int argc, char **argv, const MPI_Comm communicator)
-{
-  const bool first =
-    dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
-  try
+    void
+    run_checked(const int argc, char **argv, const MPI_Comm communicator)
     {
-      run_checked(argc, argv, communicator);
-      return done;
+      const bool first =
+        dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+      const auto command_line = Parameters::parse_command_line(argc, argv);
+      if (command_line.help || command_line.version)
+        {
+          if (first)
+            std::cout << (command_line.help ? Parameters::help_text()
+                                            : "Perimorph " PERIMORPH_VERSION
+                                              "\n");
+          return;
+        }
+      ParameterTexts           texts;
+      dealii::ParameterHandler prm;
+      texts.declare(prm);
+      Base::InputErrorCollector errors;
+      if (!command_line.parameter_file.empty() &&
+          !Parameters::read_file(command_line.parameter_file, prm, errors))
+        errors.throw_if_any();
+      Parameters::apply_overrides(command_line.overrides, prm, errors);
+      if (command_line.print_parameters)
+        {
+          errors.throw_if_any();
+          if (first)
+            prm.print_parameters(std::cout, print_style);
+          return;
+        }
+      Base::Log log(communicator);
+      if (texts.dimension == 2)
+        run_dimension<2>(command_line, texts, prm, errors, log, communicator);
+      else
+        run_dimension<3>(command_line, texts, prm, errors, log, communicator);
     }
-  catch (const Base::InputError &error)
-    {
-      if (first)
-        std::cerr << error.what() << std::endl;
-      return bad_input;
-    }
-  catch (const Base::SolveError &error)
-    {
-      if (first)
-        std::cerr << "Error: the solve failed: " << error.what() << std::endl;
-      return solve_failed;
-    }
-  catch (const std::exception &error)
-    {
-      // A defect of the program: no rank may go on waiting for this one.
-      std::cerr << "Error: internal failure, please report it: "
-                << error.what() << std::endl;
-      if (dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
-        MPI_Abort(communicator, solve_failed);
-      return solve_failed;
-    }
-}
+  } // namespace
+
+  int
+  run_program(const int argc, char **argv, const MPI_Comm communicator)
+  {
+    const bool first =
+      dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+    try
+      {
+        run_checked(argc, argv, communicator);
+        return done;
+      }
+    catch (const Base::InputError &error)
+      {
+        if (first)
+          std::cerr << error.what() << std::endl;
+        return bad_input;
+      }
+    catch (const Base::SolveError &error)
+      {
+        if (first)
+          std::cerr << "Error: the solve failed: " << error.what() << std::endl;
+        return solve_failed;
+      }
+    catch (const std::exception &error)
+      {
+        // A defect of the program: no rank may go on waiting for this one.
+        std::cerr << "Error: internal failure, please report it: "
+                  << error.what() << std::endl;
+        if (dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
+          MPI_Abort(communicator, solve_failed);
+        return solve_failed;
+      }
+  }
 } // namespace Perimorph::Application

@@ -9,391 +9,398 @@
 
 namespace Perimorph::Application
 {
-namespace
-{
-template <typename Enum>
-Enum
-from_name(const std::string &name, const std::vector<std::string> &names)
-{
-  return static_cast<Enum>(std::find(names.begin(), names.end(), name) -
-                           names.begin());
-}
-
-/// A path in a parameter file: relative to its folder, or to where we are.
-std::string
-resolve(const std::string &path, const std::string &parameter_file)
-{
-  namespace fs = std::filesystem;
-  if (path.empty() || fs::path(path).is_absolute())
-    return path;
-  const fs::path beside = fs::path(parameter_file).parent_path() / path;
-  std::error_code status;
-  return fs::exists(beside, status) || !fs::exists(path, status) ?
-           beside.lexically_normal().string() :
-           path;
-}
-
-std::string
-number_text(const double value)
-{
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
-unsigned int
-component_index(const std::string &component)
-{
-  return component == "x" ? 0 : (component == "y" ? 1 : 2);
-}
-
-template <int dim>
-Fem::ComponentExpressions<dim>
-expressions(
-  const std::string                                      &path,
-  const std::vector<std::pair<std::string, std::string>> &components,
-  const Parameters::Constants                            &constants,
-  Base::InputErrorCollector                              &errors)
-{
-  Fem::ComponentExpressions<dim> result;
-  for (const auto &component : components)
-    result[component_index(component.first)] =
-      Parameters::Expression(path, component.second, constants, errors);
-  return result;
-}
-} // namespace
-
-template <int dim>
-SimulationParameters<dim>::SimulationParameters(
-  const ParameterTexts      &texts,
-  const std::string         &parameter_file,
-  Base::InputErrorCollector &errors)
-  : case_name(texts.title)
-  , output_folder(texts.output_folder)
-  , mesh_file(resolve(texts.mesh_file, parameter_file))
-  , n_steps(texts.n_steps)
-  , end_time(texts.end_time)
-  , linear_tolerance(texts.linear_tolerance)
-  , compare_with_finite_elements(texts.compare_with_finite_elements)
-  , write_fields(texts.write_fields)
-  , write_stress(texts.write_stress)
-  , write_particles(texts.write_particles)
-{
-  const std::string stem =
-    std::filesystem::path(parameter_file).stem().string();
-  if (case_name.empty())
-    case_name = stem;
-  if (output_folder.empty())
-    output_folder = "output/" + stem;
-  if (mesh_file.empty())
-    errors.add_parameter("Mesh / file",
-                         "nothing",
-                         "the path of a gmsh mesh (.msh) or geometry (.geo)");
-  for (const auto &entry :
-       Parameters::parse_named_numbers("Mesh / geometry parameters",
-                                       texts.geometry_parameters,
-                                       errors))
-    geometry_parameters[entry.first] = entry.second;
-
-  newton.tolerance          = texts.newton_tolerance;
-  newton.maximum_iterations = texts.maximum_newton_iterations;
-  linear_solver = from_name<Solvers::LinearSolverKind>(
-    texts.linear_solver, {"automatic", "direct", "iterative"});
-  tangent = from_name<Solvers::TangentKind>(
-    texts.tangent, {"automatic", "assembled", "matrix-free"});
-
-  constants = Parameters::parse_constants("Expressions / constants",
-                                          texts.constants,
-                                          errors);
-  read_materials(texts, errors);
-  read_region(texts, errors);
-  read_boundary_conditions(texts, errors);
-  read_quantities(texts, parameter_file, errors);
-  if (coupling.model == Coupling::Model::bond_based &&
-      region.mode != Mesh::Mode::finite_elements)
-    check_bond_based(errors);
-}
-
-template <int dim>
-void
-SimulationParameters<dim>::read_materials(const ParameterTexts      &texts,
-                                          Base::InputErrorCollector &errors)
-{
-  state = dim == 2 ? Materials::PlaneState::plane_strain :
-                     Materials::PlaneState::three_dimensional;
-  if (texts.state != "automatic")
-    state = from_name<Materials::PlaneState>(
-      texts.state, {"plane stress", "plane strain", "three-dimensional"});
-  if ((dim == 2) == (state == Materials::PlaneState::three_dimensional))
-    errors.add_parameter("Material / state",
-                         "'" + texts.state + "' with Dimension = " +
-                           std::to_string(dim),
-                         dim == 2 ? "plane stress, plane strain" :
-                                    "three-dimensional");
-
-  const auto check = [&errors](const std::string       &path,
-                               const MaterialConstants &constants,
-                               const std::string       &of) {
-    if (!(constants.youngs_modulus > 0.) ||
-        !std::isfinite(constants.youngs_modulus))
-      errors.add_parameter(path + "Young's modulus" + of,
-                           constants.youngs_modulus == 0. ?
-                             "nothing or 0" :
-                             number_text(constants.youngs_modulus),
-                           "a number > 0");
-    if (!(constants.poissons_ratio > -1. && constants.poissons_ratio < 0.5))
-      errors.add_parameter(path + "Poisson's ratio" + of,
-                           number_text(constants.poissons_ratio),
-                           "more than -1 and less than 0.5");
-  };
-  material = {texts.youngs_modulus, texts.poissons_ratio};
-  check("Material / ", material, "");
-
-  const std::string path = "Material / by volume";
-  for (const auto &entry :
-       Parameters::parse_named_components(path,
-                                          texts.by_volume,
-                                          {"Young's modulus",
-                                           "Poisson's ratio"},
-                                          Parameters::NameRule::required,
-                                          errors))
+  namespace
+  {
+    template <typename Enum>
+    Enum
+    from_name(const std::string &name, const std::vector<std::string> &names)
     {
-      MaterialConstants constants = material;
-      for (const auto &component : entry.components)
-        {
-          const Parameters::Expression value(path,
-                                             component.second,
-                                             this->constants,
-                                             errors);
-          (component.first == "Young's modulus" ? constants.youngs_modulus :
-                                                  constants.poissons_ratio) =
-            value.value(dealii::Point<dim>(), 0.);
-        }
-      check("Material / by volume: ", constants, " of " + entry.name);
-      volume_materials[entry.name] = constants;
+      return static_cast<Enum>(std::find(names.begin(), names.end(), name) -
+                               names.begin());
     }
-}
 
-template <int dim>
-void
-SimulationParameters<dim>::read_region(const ParameterTexts      &texts,
-                                       Base::InputErrorCollector &errors)
-{
-  region.mode     = from_name<Mesh::Mode>(texts.mode, Mesh::mode_names());
-  region.features = Parameters::parse_features("Peridynamics / around",
-                                               texts.around,
-                                               dim,
-                                               errors);
-  region.core_size = Parameters::parse_length("Peridynamics / core size",
-                                              texts.core_size,
-                                              false,
-                                              errors);
-  region.blending_width =
-    Parameters::parse_length("Peridynamics / blending width",
-                             texts.blending_width,
-                             true,
-                             errors);
-  region.blending_function =
-    from_name<Mesh::BlendingFunction>(texts.blending_function,
-                                      Mesh::blending_function_names());
-  region.horizon_ratio  = texts.horizon_ratio;
-  region.horizon_length = texts.horizon;
+    /// A path in a parameter file: relative to its folder, or to where we are.
+    std::string
+    resolve(const std::string &path, const std::string &parameter_file)
+    {
+      namespace fs = std::filesystem;
+      if (path.empty() || fs::path(path).is_absolute())
+        return path;
+      const fs::path  beside = fs::path(parameter_file).parent_path() / path;
+      std::error_code status;
+      return fs::exists(beside, status) || !fs::exists(path, status)
+               ? beside.lexically_normal().string()
+               : path;
+    }
 
-  coupling.model =
-    from_name<Coupling::Model>(texts.model, Coupling::model_names());
-  coupling.scheme =
-    from_name<Coupling::Scheme>(texts.coupling, Coupling::scheme_names());
-  coupling.influence =
-    Peridynamics::influence_function_from_name(texts.influence_function);
-  coupling.gamma = texts.stabilization;
-}
+    std::string
+    number_text(const double value)
+    {
+      std::ostringstream text;
+      text << value;
+      return text.str();
+    }
 
-template <int dim>
-void
-SimulationParameters<dim>::read_boundary_conditions(
-  const ParameterTexts      &texts,
-  Base::InputErrorCollector &errors)
-{
-  const std::string section   = "Boundary conditions / ";
-  const auto        xyz       = Parameters::displacement_components(dim);
-  using Parameters::NameRule;
-  auto &conditions = boundary_conditions;
+    unsigned int
+    component_index(const std::string &component)
+    {
+      return component == "x" ? 0 : (component == "y" ? 1 : 2);
+    }
 
-  conditions.remove_rigid_motion = texts.remove_rigid_motion;
-  conditions.symmetry =
-    Parameters::parse_names(section + "symmetry", texts.symmetry, errors);
-  const auto named = [&](const std::string &entry,
-                         const std::string &text,
-                         const NameRule     rule) {
-    return Parameters::parse_named_components(
-      section + entry, text, xyz, rule, errors);
-  };
-  const auto components = [&](const std::string &entry, const auto &list) {
-    return expressions<dim>(section + entry, list, constants, errors);
-  };
-  for (const auto &entry :
-       named("displacement", texts.displacement, NameRule::required))
-    conditions.displacement.push_back(
-      {entry.name, {}, components("displacement", entry.components)});
-  for (const auto &entry :
-       named("traction", texts.traction, NameRule::required))
-    conditions.surface_loads.push_back(
-      {entry.name, components("traction", entry.components), {}});
-  for (const auto &entry :
-       Parameters::parse_named_values(section + "pressure",
-                                      texts.pressure,
-                                      errors))
-    conditions.surface_loads.push_back(
-      {entry.name,
-       {},
-       Parameters::Expression(
-         section + "pressure", entry.expression, constants, errors)});
-  for (const auto &entry :
-       named("body force", texts.body_force, NameRule::optional_volume))
-    conditions.body_forces.push_back(
-      {entry.name, components("body force", entry.components)});
-  for (const auto &entry :
-       Parameters::parse_point_entries(section + "point displacement",
-                                       texts.point_displacement,
-                                       dim,
-                                       xyz,
-                                       errors))
-    conditions.displacement.push_back(
-      {"",
-       entry.coordinates,
-       components("point displacement", entry.components)});
-  for (const auto &entry :
-       Parameters::parse_point_entries(section + "point force",
-                                       texts.point_force,
-                                       dim,
-                                       xyz,
-                                       errors))
-    conditions.point_forces.push_back(
-      {entry.coordinates, components("point force", entry.components)});
-}
+    template <int dim>
+    Fem::ComponentExpressions<dim>
+    expressions(
+      const std::string                                      &path,
+      const std::vector<std::pair<std::string, std::string>> &components,
+      const Parameters::Constants                            &constants,
+      Base::InputErrorCollector                              &errors)
+    {
+      Fem::ComponentExpressions<dim> result;
+      for (const auto &component : components)
+        result[component_index(component.first)] =
+          Parameters::Expression(path, component.second, constants, errors);
+      return result;
+    }
+  } // namespace
 
-template <int dim>
-void
-SimulationParameters<dim>::read_quantities(
-  const ParameterTexts      &texts,
-  const std::string         &parameter_file,
-  Base::InputErrorCollector &errors)
-{
-  const std::string section = "Quantities / ";
-  const auto        probe_points =
-    [&](const std::string              &entry,
-        const std::string              &text,
-        const std::vector<std::string> &components) {
-      return Parameters::parse_probe_points(
-        section + entry, text, dim, components, errors);
-    };
-  stress_concentration = texts.stress_concentration;
-  nominal_stress = Parameters::parse_nominal_stress(section + "nominal stress",
-                                                    texts.nominal_stress,
-                                                    errors);
-  deflections   = probe_points("deflection",
-                             texts.deflection,
-                             Parameters::displacement_components(dim));
-  stress_ratios = probe_points("stress ratio",
-                               texts.stress_ratio,
-                               Parameters::stress_components(dim));
-  points        = probe_points("point", texts.point, {});
-  lines =
-    Parameters::parse_probe_lines(section + "line", texts.line, dim, errors);
-  circles   = Parameters::parse_probe_circles(section + "circle",
-                                            texts.circle,
-                                            dim,
+  template <int dim>
+  SimulationParameters<dim>::SimulationParameters(
+    const ParameterTexts      &texts,
+    const std::string         &parameter_file,
+    Base::InputErrorCollector &errors)
+    : case_name(texts.title)
+    , output_folder(texts.output_folder)
+    , mesh_file(resolve(texts.mesh_file, parameter_file))
+    , n_steps(texts.n_steps)
+    , end_time(texts.end_time)
+    , linear_tolerance(texts.linear_tolerance)
+    , compare_with_finite_elements(texts.compare_with_finite_elements)
+    , write_fields(texts.write_fields)
+    , write_stress(texts.write_stress)
+    , write_particles(texts.write_particles)
+  {
+    const std::string stem =
+      std::filesystem::path(parameter_file).stem().string();
+    if (case_name.empty())
+      case_name = stem;
+    if (output_folder.empty())
+      output_folder = "output/" + stem;
+    if (mesh_file.empty())
+      errors.add_parameter("Mesh / file",
+                           "nothing",
+                           "the path of a gmsh mesh (.msh) or geometry (.geo)");
+    for (const auto &entry :
+         Parameters::parse_named_numbers("Mesh / geometry parameters",
+                                         texts.geometry_parameters,
+                                         errors))
+      geometry_parameters[entry.first] = entry.second;
+
+    newton.tolerance          = texts.newton_tolerance;
+    newton.maximum_iterations = texts.maximum_newton_iterations;
+    linear_solver             = from_name<Solvers::LinearSolverKind>(
+      texts.linear_solver,
+      {"automatic", "direct", "iterative"});
+    tangent = from_name<Solvers::TangentKind>(
+      texts.tangent,
+      {"automatic", "assembled", "matrix-free"});
+
+    constants = Parameters::parse_constants("Expressions / constants",
+                                            texts.constants,
                                             errors);
-  reactions = Parameters::parse_names(section + "reaction",
-                                      texts.reaction,
-                                      errors);
+    read_materials(texts, errors);
+    read_region(texts, errors);
+    read_boundary_conditions(texts, errors);
+    read_quantities(texts, parameter_file, errors);
+    if (coupling.model == Coupling::Model::bond_based &&
+        region.mode != Mesh::Mode::finite_elements)
+      check_bond_based(errors);
+  }
 
-  // A single constant traction is the obvious nominal stress.
-  const bool nominal_needed =
-    !stress_concentration.empty() || !stress_ratios.empty();
-  if (nominal_needed && !nominal_stress.value &&
-      nominal_stress.reaction_of.empty())
-    {
-      const auto &loads = boundary_conditions.surface_loads;
-      if (loads.size() == 1 && !loads[0].pressure)
-        {
-          double square = 0.;
-          for (const auto &component : loads[0].traction)
-            if (component && !component->depends_on_space())
-              square +=
-                std::pow(component->value(dealii::Point<dim>(), end_time), 2);
-          if (square > 0.)
-            nominal_stress.value = std::sqrt(square);
-        }
-      if (!nominal_stress.value && errors.empty())
-        errors.add_parameter(section + "nominal stress",
-                             "nothing",
-                             "a number or 'reaction of NAME', since a stress "
-                             "concentration or ratio is asked for");
-    }
-  if (nominal_stress.value && *nominal_stress.value == 0.)
-    errors.add_parameter(section + "nominal stress", "0", "a number not zero");
+  template <int dim>
+  void
+  SimulationParameters<dim>::read_materials(const ParameterTexts      &texts,
+                                            Base::InputErrorCollector &errors)
+  {
+    state = dim == 2 ? Materials::PlaneState::plane_strain
+                     : Materials::PlaneState::three_dimensional;
+    if (texts.state != "automatic")
+      state = from_name<Materials::PlaneState>(
+        texts.state,
+        {"plane stress", "plane strain", "three-dimensional"});
+    if ((dim == 2) == (state == Materials::PlaneState::three_dimensional))
+      errors.add_parameter(
+        "Material / state",
+        "'" + texts.state + "' with Dimension = " + std::to_string(dim),
+        dim == 2 ? "plane stress, plane strain" : "three-dimensional");
 
-  reference_values = Parameters::parse_named_numbers("Reference / values",
-                                                     texts.reference_values,
-                                                     errors);
-  const auto exact =
-    Parameters::parse_named_components("Reference / displacement",
-                                       texts.reference_displacement,
-                                       Parameters::displacement_components(
-                                         dim),
-                                       Parameters::NameRule::none,
+    const auto check = [&errors](const std::string       &path,
+                                 const MaterialConstants &constants,
+                                 const std::string       &of) {
+      if (!(constants.youngs_modulus > 0.) ||
+          !std::isfinite(constants.youngs_modulus))
+        errors.add_parameter(path + "Young's modulus" + of,
+                             constants.youngs_modulus == 0.
+                               ? "nothing or 0"
+                               : number_text(constants.youngs_modulus),
+                             "a number > 0");
+      if (!(constants.poissons_ratio > -1. && constants.poissons_ratio < 0.5))
+        errors.add_parameter(path + "Poisson's ratio" + of,
+                             number_text(constants.poissons_ratio),
+                             "more than -1 and less than 0.5");
+    };
+    material = {texts.youngs_modulus, texts.poissons_ratio};
+    check("Material / ", material, "");
+
+    const std::string path = "Material / by volume";
+    for (const auto &entry : Parameters::parse_named_components(
+           path,
+           texts.by_volume,
+           {"Young's modulus", "Poisson's ratio"},
+           Parameters::NameRule::required,
+           errors))
+      {
+        MaterialConstants constants = material;
+        for (const auto &component : entry.components)
+          {
+            const Parameters::Expression value(path,
+                                               component.second,
+                                               this->constants,
+                                               errors);
+            (component.first == "Young's modulus" ? constants.youngs_modulus
+                                                  : constants.poissons_ratio) =
+              value.value(dealii::Point<dim>(), 0.);
+          }
+        check("Material / by volume: ", constants, " of " + entry.name);
+        volume_materials[entry.name] = constants;
+      }
+  }
+
+  template <int dim>
+  void
+  SimulationParameters<dim>::read_region(const ParameterTexts      &texts,
+                                         Base::InputErrorCollector &errors)
+  {
+    region.mode      = from_name<Mesh::Mode>(texts.mode, Mesh::mode_names());
+    region.features  = Parameters::parse_features("Peridynamics / around",
+                                                 texts.around,
+                                                 dim,
+                                                 errors);
+    region.core_size = Parameters::parse_length("Peridynamics / core size",
+                                                texts.core_size,
+                                                false,
+                                                errors);
+    region.blending_width =
+      Parameters::parse_length("Peridynamics / blending width",
+                               texts.blending_width,
+                               true,
+                               errors);
+    region.blending_function =
+      from_name<Mesh::BlendingFunction>(texts.blending_function,
+                                        Mesh::blending_function_names());
+    region.horizon_ratio  = texts.horizon_ratio;
+    region.horizon_length = texts.horizon;
+
+    coupling.model =
+      from_name<Coupling::Model>(texts.model, Coupling::model_names());
+    coupling.scheme =
+      from_name<Coupling::Scheme>(texts.coupling, Coupling::scheme_names());
+    coupling.influence =
+      Peridynamics::influence_function_from_name(texts.influence_function);
+    coupling.gamma = texts.stabilization;
+  }
+
+  template <int dim>
+  void
+  SimulationParameters<dim>::read_boundary_conditions(
+    const ParameterTexts      &texts,
+    Base::InputErrorCollector &errors)
+  {
+    const std::string section = "Boundary conditions / ";
+    const auto        xyz     = Parameters::displacement_components(dim);
+    using Parameters::NameRule;
+    auto &conditions = boundary_conditions;
+
+    conditions.remove_rigid_motion = texts.remove_rigid_motion;
+    conditions.symmetry =
+      Parameters::parse_names(section + "symmetry", texts.symmetry, errors);
+    const auto named = [&](const std::string &entry,
+                           const std::string &text,
+                           const NameRule     rule) {
+      return Parameters::parse_named_components(section + entry,
+                                                text,
+                                                xyz,
+                                                rule,
+                                                errors);
+    };
+    const auto components = [&](const std::string &entry, const auto &list) {
+      return expressions<dim>(section + entry, list, constants, errors);
+    };
+    for (const auto &entry :
+         named("displacement", texts.displacement, NameRule::required))
+      conditions.displacement.push_back(
+        {entry.name, {}, components("displacement", entry.components)});
+    for (const auto &entry :
+         named("traction", texts.traction, NameRule::required))
+      conditions.surface_loads.push_back(
+        {entry.name, components("traction", entry.components), {}});
+    for (const auto &entry :
+         Parameters::parse_named_values(section + "pressure",
+                                        texts.pressure,
+                                        errors))
+      conditions.surface_loads.push_back(
+        {entry.name,
+         {},
+         Parameters::Expression(section + "pressure",
+                                entry.expression,
+                                constants,
+                                errors)});
+    for (const auto &entry :
+         named("body force", texts.body_force, NameRule::optional_volume))
+      conditions.body_forces.push_back(
+        {entry.name, components("body force", entry.components)});
+    for (const auto &entry :
+         Parameters::parse_point_entries(section + "point displacement",
+                                         texts.point_displacement,
+                                         dim,
+                                         xyz,
+                                         errors))
+      conditions.displacement.push_back(
+        {"",
+         entry.coordinates,
+         components("point displacement", entry.components)});
+    for (const auto &entry :
+         Parameters::parse_point_entries(section + "point force",
+                                         texts.point_force,
+                                         dim,
+                                         xyz,
+                                         errors))
+      conditions.point_forces.push_back(
+        {entry.coordinates, components("point force", entry.components)});
+  }
+
+  template <int dim>
+  void
+  SimulationParameters<dim>::read_quantities(const ParameterTexts &texts,
+                                             const std::string &parameter_file,
+                                             Base::InputErrorCollector &errors)
+  {
+    const std::string section      = "Quantities / ";
+    const auto        probe_points = [&](const std::string              &entry,
+                                  const std::string              &text,
+                                  const std::vector<std::string> &components) {
+      return Parameters::parse_probe_points(section + entry,
+                                            text,
+                                            dim,
+                                            components,
+                                            errors);
+    };
+    stress_concentration = texts.stress_concentration;
+    nominal_stress =
+      Parameters::parse_nominal_stress(section + "nominal stress",
+                                       texts.nominal_stress,
                                        errors);
-  has_reference_displacement = !exact.empty();
-  if (has_reference_displacement)
-    reference_displacement = expressions<dim>("Reference / displacement",
-                                              exact[0].components,
-                                              constants,
+    deflections   = probe_points("deflection",
+                               texts.deflection,
+                               Parameters::displacement_components(dim));
+    stress_ratios = probe_points("stress ratio",
+                                 texts.stress_ratio,
+                                 Parameters::stress_components(dim));
+    points        = probe_points("point", texts.point, {});
+    lines =
+      Parameters::parse_probe_lines(section + "line", texts.line, dim, errors);
+    circles = Parameters::parse_probe_circles(section + "circle",
+                                              texts.circle,
+                                              dim,
                                               errors);
-  for (const auto &entry :
-       Parameters::parse_named_values("Reference / data",
-                                      texts.reference_data,
-                                      errors))
-    reference_data.push_back(
-      {entry.name, resolve(entry.expression, parameter_file)});
-}
+    reactions =
+      Parameters::parse_names(section + "reaction", texts.reaction, errors);
 
-template <int dim>
-void
-SimulationParameters<dim>::check_bond_based(
-  Base::InputErrorCollector &errors) const
-{
-  const double allowed = Peridynamics::allowed_poissons_ratio(state);
-  const auto   check   = [&](const std::string &path, const double found) {
-    if (std::abs(found - allowed) > 1e-3)
-      errors.add_parameter(path,
-                           number_text(found),
-                           std::string(allowed > 0.3 ? "1/3" : "1/4") +
-                             " with bond-based peridynamics in " +
-                             (state == Materials::PlaneState::plane_stress ?
-                                "plane stress" :
-                              state == Materials::PlaneState::plane_strain ?
-                                "plane strain" :
-                                "3D"),
-                           "Pair forces along bonds leave no choice; use "
-                           "model = correspondence for other values.");
-  };
-  check("Material / Poisson's ratio", material.poissons_ratio);
-  for (const auto &entry : volume_materials)
-    check("Material / by volume: Poisson's ratio of " + entry.first,
-          entry.second.poissons_ratio);
-}
+    // A single constant traction is the obvious nominal stress.
+    const bool nominal_needed =
+      !stress_concentration.empty() || !stress_ratios.empty();
+    if (nominal_needed && !nominal_stress.value &&
+        nominal_stress.reaction_of.empty())
+      {
+        const auto &loads = boundary_conditions.surface_loads;
+        if (loads.size() == 1 && !loads[0].pressure)
+          {
+            double square = 0.;
+            for (const auto &component : loads[0].traction)
+              if (component && !component->depends_on_space())
+                square +=
+                  std::pow(component->value(dealii::Point<dim>(), end_time), 2);
+            if (square > 0.)
+              nominal_stress.value = std::sqrt(square);
+          }
+        if (!nominal_stress.value && errors.empty())
+          errors.add_parameter(section + "nominal stress",
+                               "nothing",
+                               "a number or 'reaction of NAME', since a stress "
+                               "concentration or ratio is asked for");
+      }
+    if (nominal_stress.value && *nominal_stress.value == 0.)
+      errors.add_parameter(section + "nominal stress",
+                           "0",
+                           "a number not zero");
 
-template <int dim>
-std::vector<double>
-SimulationParameters<dim>::times() const
-{
-  std::vector<double> list;
-  for (unsigned int step = 1; step <= n_steps; ++step)
-    list.push_back(end_time * step / n_steps);
-  return list;
-}
+    reference_values = Parameters::parse_named_numbers("Reference / values",
+                                                       texts.reference_values,
+                                                       errors);
+    const auto exact = Parameters::parse_named_components(
+      "Reference / displacement",
+      texts.reference_displacement,
+      Parameters::displacement_components(dim),
+      Parameters::NameRule::none,
+      errors);
+    has_reference_displacement = !exact.empty();
+    if (has_reference_displacement)
+      reference_displacement = expressions<dim>("Reference / displacement",
+                                                exact[0].components,
+                                                constants,
+                                                errors);
+    for (const auto &entry :
+         Parameters::parse_named_values("Reference / data",
+                                        texts.reference_data,
+                                        errors))
+      reference_data.push_back(
+        {entry.name, resolve(entry.expression, parameter_file)});
+  }
 
-template struct SimulationParameters<2>;
-template struct SimulationParameters<3>;
+  template <int dim>
+  void
+  SimulationParameters<dim>::check_bond_based(
+    Base::InputErrorCollector &errors) const
+  {
+    const double allowed = Peridynamics::allowed_poissons_ratio(state);
+    const auto   check   = [&](const std::string &path, const double found) {
+      if (std::abs(found - allowed) > 1e-3)
+        errors.add_parameter(
+          path,
+          number_text(found),
+          std::string(allowed > 0.3 ? "1/3" : "1/4") +
+            " with bond-based peridynamics in " +
+            (state == Materials::PlaneState::plane_stress   ? "plane stress"
+                 : state == Materials::PlaneState::plane_strain ? "plane strain"
+                                                                : "3D"),
+          "Pair forces along bonds leave no choice; use "
+              "model = correspondence for other values.");
+    };
+    check("Material / Poisson's ratio", material.poissons_ratio);
+    for (const auto &entry : volume_materials)
+      check("Material / by volume: Poisson's ratio of " + entry.first,
+            entry.second.poissons_ratio);
+  }
+
+  template <int dim>
+  std::vector<double>
+  SimulationParameters<dim>::times() const
+  {
+    std::vector<double> list;
+    for (unsigned int step = 1; step <= n_steps; ++step)
+      list.push_back(end_time * step / n_steps);
+    return list;
+  }
+
+  template struct SimulationParameters<2>;
+  template struct SimulationParameters<3>;
 } // namespace Perimorph::Application

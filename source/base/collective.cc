@@ -11,42 +11,42 @@
 
 namespace Perimorph::Base
 {
-void
-collectively(MPI_Comm communicator, const std::function<void()> &action)
-{
-  enum Outcome
+  void
+  collectively(MPI_Comm communicator, const std::function<void()> &action)
   {
-    fine,
-    bad_input,
-    failed_solve
-  };
-  int                      outcome = fine;
-  std::vector<std::string> messages;
-  try
+    enum Outcome
     {
-      action();
-    }
-  catch (const InputError &error)
-    {
-      outcome  = bad_input;
-      messages = error.messages();
-    }
-  catch (const std::exception &error)
-    {
-      outcome  = failed_solve;
-      messages = {error.what()};
-    }
-  namespace MPI           = dealii::Utilities::MPI;
-  const unsigned int size = MPI::n_mpi_processes(communicator);
-  const unsigned int rank = MPI::this_mpi_process(communicator);
-  const unsigned int first =
-    MPI::min(outcome == fine ? size : rank, communicator);
-  if (first == size)
-    return;
-  outcome  = MPI::broadcast(communicator, outcome, first);
-  messages = MPI::broadcast(communicator, messages, first);
-  if (outcome == bad_input)
-    throw InputError(messages);
-  throw SolveError(messages.front());
-}
+      fine,
+      bad_input,
+      failed_solve
+    };
+    int                      outcome = fine;
+    std::vector<std::string> messages;
+    try
+      {
+        action();
+      }
+    catch (const InputError &error)
+      {
+        outcome  = bad_input;
+        messages = error.messages();
+      }
+    catch (const std::exception &error)
+      {
+        outcome  = failed_solve;
+        messages = {error.what()};
+      }
+    namespace MPI           = dealii::Utilities::MPI;
+    const unsigned int size = MPI::n_mpi_processes(communicator);
+    const unsigned int rank = MPI::this_mpi_process(communicator);
+    const unsigned int first =
+      MPI::min(outcome == fine ? size : rank, communicator);
+    if (first == size)
+      return;
+    outcome  = MPI::broadcast(communicator, outcome, first);
+    messages = MPI::broadcast(communicator, messages, first);
+    if (outcome == bad_input)
+      throw InputError(messages);
+    throw SolveError(messages.front());
+  }
 } // namespace Perimorph::Base

@@ -10,274 +10,279 @@
 
 namespace Perimorph::Coupling
 {
-namespace
-{
-/// Nodes of one family while it is built, with their sums; clears in O(size).
-template <int dim>
-class FamilyScratch
-{
-public:
-  explicit FamilyScratch(const unsigned int n_nodes)
-    : sums(n_nodes)
-    , seen(n_nodes, false)
-  {}
-
-  dealii::Tensor<1, dim> &
-  at(const unsigned int node)
+  namespace
   {
-    if (!seen[node])
+    /// Nodes of one family while it is built, with their sums; clears in
+    /// O(size).
+    template <int dim>
+    class FamilyScratch
+    {
+    public:
+      explicit FamilyScratch(const unsigned int n_nodes)
+        : sums(n_nodes)
+        , seen(n_nodes, false)
+      {}
+
+      dealii::Tensor<1, dim> &
+      at(const unsigned int node)
       {
-        seen[node] = true;
-        nodes.push_back(node);
-        sums[node] = dealii::Tensor<1, dim>();
+        if (!seen[node])
+          {
+            seen[node] = true;
+            nodes.push_back(node);
+            sums[node] = dealii::Tensor<1, dim>();
+          }
+        return sums[node];
       }
-    return sums[node];
-  }
 
-  const std::vector<unsigned int> &
-  sorted_nodes()
-  {
-    std::sort(nodes.begin(), nodes.end());
-    return nodes;
-  }
+      const std::vector<unsigned int> &
+      sorted_nodes()
+      {
+        std::sort(nodes.begin(), nodes.end());
+        return nodes;
+      }
 
-  void
-  clear()
-  {
-    for (const unsigned int n : nodes)
-      seen[n] = false;
-    nodes.clear();
-  }
+      void
+      clear()
+      {
+        for (const unsigned int n : nodes)
+          seen[n] = false;
+        nodes.clear();
+      }
 
-private:
-  std::vector<dealii::Tensor<1, dim>> sums;
-  std::vector<bool>                   seen;
-  std::vector<unsigned int>           nodes;
-};
+    private:
+      std::vector<dealii::Tensor<1, dim>> sums;
+      std::vector<bool>                   seen;
+      std::vector<unsigned int>           nodes;
+    };
 
-/// Shape tensor of the row that is being written to the set, and with it the
-/// stabilisation kappa = gamma mu tr(K^-1) / dim.
-template <int dim>
-dealii::Tensor<2, dim>
-shape_tensor_of_last_row(const Mesh::NodalMesh<dim>         &mesh,
-                         const Peridynamics::FamilySet<dim> &set,
-                         const unsigned int                  node)
-{
-  dealii::Tensor<2, dim> K;
-  for (std::size_t b = set.offsets.back(); b < set.neighbor.size(); ++b)
+    /// Shape tensor of the row that is being written to the set, and with it
+    /// the stabilisation kappa = gamma mu tr(K^-1) / dim.
+    template <int dim>
+    dealii::Tensor<2, dim>
+    shape_tensor_of_last_row(const Mesh::NodalMesh<dim>         &mesh,
+                             const Peridynamics::FamilySet<dim> &set,
+                             const unsigned int                  node)
     {
-      const dealii::Tensor<1, dim> xi =
-        mesh.nodes[set.neighbor[b]] - mesh.nodes[node];
-      K += set.bond_weight[b] * outer_product(xi, xi);
-    }
-  return K;
-}
-
-template <int dim>
-void
-close_family(const Mesh::NodalMesh<dim>       &mesh,
-             const Bonds::ParticleSeed        &particle,
-             const double                      weight,
-             const FamilyParameters           &parameters,
-             Peridynamics::FamilySet<dim>     &set,
-             const bool                        classical_gradient)
-{
-  const auto K = shape_tensor_of_last_row(mesh, set, particle.node);
-  // The determinant of a regular shape tensor is of the order of its norm to
-  // the power dim.
-  if (!(determinant(K) > 1e-10 * std::pow(K.norm(), dim)))
-    {
-      std::ostringstream where;
-      where << "particle at (" << mesh.nodes[particle.node] << ")";
-      throw Base::InputError(Base::InputMessage{
-        where.str(),
-        std::to_string(set.neighbor.size() - set.offsets.back()) +
-          " neighbours, all in one line or plane",
-        "at least " + std::to_string(dim) + " independent bonds",
-        "Use a larger horizon ratio or a mesh with more cells across."});
-    }
-  const auto inverse = invert(K);
-  if (classical_gradient)
-    for (std::size_t b = set.offsets.back(); b < set.neighbor.size(); ++b)
-      set.gradient_weight[b] =
-        set.bond_weight[b] *
-        (inverse * (mesh.nodes[set.neighbor[b]] - mesh.nodes[particle.node]));
-  set.node.push_back(particle.node);
-  set.material.push_back(particle.material);
-  set.weight.push_back(weight);
-  set.stabilization.push_back(parameters.gamma *
-                              parameters.shear_modulus[particle.material] *
-                              trace(inverse) / dim);
-  set.offsets.push_back(set.neighbor.size());
-}
-} // namespace
-
-template <int dim>
-Peridynamics::FamilySet<dim>
-consistent_families(const Mesh::NodalMesh<dim> &mesh,
-                    const std::vector<double>  &alpha,
-                    const std::vector<double>  &horizon,
-                    const FamilyParameters     &parameters)
-{
-  using Geometry                    = Mesh::CellGeometry<dim>;
-  constexpr unsigned int n_points   = Geometry::n_points;
-  constexpr unsigned int not_needed = dealii::numbers::invalid_unsigned_int;
-
-  const auto particles = Bonds::relevant_particles(mesh, alpha, horizon);
-  const auto supports  = Bonds::find_supports(mesh, particles, horizon);
-
-  // Quadrature data of the cells that owned particles average over.
-  std::vector<unsigned int>                slot(mesh.n_cells(), not_needed);
-  std::vector<Geometry>                    geometries;
-  std::vector<std::array<double, n_points>> weight_sums;
-  for (std::size_t p = 0; p < particles.size(); ++p)
-    if (mesh.owns_node(particles[p].node))
-      for (const unsigned int c : supports.row(p))
-        if (slot[c] == not_needed)
-          {
-            slot[c] = geometries.size();
-            geometries.emplace_back(mesh.corners(c));
-            weight_sums.push_back({});
-          }
-
-  const auto averaging = [&](const unsigned int node,
-                             const Geometry    &geometry,
-                             const unsigned int q) {
-    return alpha[node] * mesh.volume[node] *
-           Peridynamics::averaging_weight(
-             parameters.influence,
-             geometry.points[q].distance(mesh.nodes[node]) / horizon[node]);
-  };
-  for (std::size_t p = 0; p < particles.size(); ++p)
-    for (const unsigned int c : supports.row(p))
-      if (slot[c] != not_needed)
-        for (unsigned int q = 0; q < n_points; ++q)
-          weight_sums[slot[c]][q] +=
-            averaging(particles[p].node, geometries[slot[c]], q);
-
-  Peridynamics::FamilySet<dim> set;
-  FamilyScratch<dim>           scratch(mesh.n_nodes());
-  for (std::size_t p = 0; p < particles.size(); ++p)
-    {
-      const unsigned int node = particles[p].node;
-      if (!mesh.owns_node(node))
-        continue;
-      double weight = 0.;
-      for (const unsigned int c : supports.row(p))
+      dealii::Tensor<2, dim> K;
+      for (std::size_t b = set.offsets.back(); b < set.neighbor.size(); ++b)
         {
-          const Geometry &geometry = geometries[slot[c]];
-          for (unsigned int q = 0; q < n_points; ++q)
-            {
-              double alpha_at_point = 0.;
-              for (unsigned int v = 0; v < Geometry::n_nodes; ++v)
-                alpha_at_point +=
-                  alpha[mesh.cells[c][v]] * Geometry::shape_value(q, v);
-              const double share = geometry.jxw[q] * alpha_at_point *
-                                   averaging(node, geometry, q) /
-                                   weight_sums[slot[c]][q];
-              weight += share;
-              for (unsigned int v = 0; v < Geometry::n_nodes; ++v)
-                scratch.at(mesh.cells[c][v]) +=
-                  share * geometry.gradients[q][v];
-            }
+          const dealii::Tensor<1, dim> xi =
+            mesh.nodes[set.neighbor[b]] - mesh.nodes[node];
+          K += set.bond_weight[b] * outer_product(xi, xi);
         }
-      for (const unsigned int n : scratch.sorted_nodes())
-        if (n != node)
-          {
-            const double r =
-              mesh.nodes[n].distance(mesh.nodes[node]) / horizon[node];
-            set.neighbor.push_back(n);
-            set.gradient_weight.push_back(scratch.at(n) / weight);
-            set.bond_weight.push_back(
-              mesh.volume[n] *
-              std::max(r <= 1. + Bonds::horizon_slack ?
-                         Peridynamics::influence(parameters.influence, r) :
-                         0.,
-                       Peridynamics::smallest_influence));
-          }
-      scratch.clear();
-      close_family(mesh, particles[p], weight, parameters, set, false);
+      return K;
     }
-  return set;
-}
 
-template <int dim>
-Peridynamics::FamilySet<dim>
-classical_families(const Mesh::NodalMesh<dim> &mesh,
-                   const std::vector<double>  &alpha,
-                   const std::vector<double>  &horizon,
-                   const FamilyParameters     &parameters)
-{
-  const auto particles = Bonds::relevant_particles(mesh, alpha, horizon);
-  const Base::PointCloud<dim> cloud(mesh.nodes);
-
-  Peridynamics::FamilySet<dim> set;
-  FamilyScratch<dim>           scratch(mesh.n_nodes());
-  std::vector<unsigned int>    near;
-  for (const auto &particle : particles)
+    template <int dim>
+    void
+    close_family(const Mesh::NodalMesh<dim>   &mesh,
+                 const Bonds::ParticleSeed    &particle,
+                 const double                  weight,
+                 const FamilyParameters       &parameters,
+                 Peridynamics::FamilySet<dim> &set,
+                 const bool                    classical_gradient)
     {
-      const unsigned int node = particle.node;
-      if (!mesh.owns_node(node))
-        continue;
-      double volume = 0.;
-      for (const unsigned int c : mesh.node_cells.row(node))
-        if (mesh.cell_material[c] == particle.material)
+      const auto K = shape_tensor_of_last_row(mesh, set, particle.node);
+      // The determinant of a regular shape tensor is of the order of its norm
+      // to the power dim.
+      if (!(determinant(K) > 1e-10 * std::pow(K.norm(), dim)))
+        {
+          std::ostringstream where;
+          where << "particle at (" << mesh.nodes[particle.node] << ")";
+          throw Base::InputError(Base::InputMessage{
+            where.str(),
+            std::to_string(set.neighbor.size() - set.offsets.back()) +
+              " neighbours, all in one line or plane",
+            "at least " + std::to_string(dim) + " independent bonds",
+            "Use a larger horizon ratio or a mesh with more cells across."});
+        }
+      const auto inverse = invert(K);
+      if (classical_gradient)
+        for (std::size_t b = set.offsets.back(); b < set.neighbor.size(); ++b)
+          set.gradient_weight[b] =
+            set.bond_weight[b] * (inverse * (mesh.nodes[set.neighbor[b]] -
+                                             mesh.nodes[particle.node]));
+      set.node.push_back(particle.node);
+      set.material.push_back(particle.material);
+      set.weight.push_back(weight);
+      set.stabilization.push_back(parameters.gamma *
+                                  parameters.shear_modulus[particle.material] *
+                                  trace(inverse) / dim);
+      set.offsets.push_back(set.neighbor.size());
+    }
+  } // namespace
+
+  template <int dim>
+  Peridynamics::FamilySet<dim>
+  consistent_families(const Mesh::NodalMesh<dim> &mesh,
+                      const std::vector<double>  &alpha,
+                      const std::vector<double>  &horizon,
+                      const FamilyParameters     &parameters)
+  {
+    using Geometry                    = Mesh::CellGeometry<dim>;
+    constexpr unsigned int n_points   = Geometry::n_points;
+    constexpr unsigned int not_needed = dealii::numbers::invalid_unsigned_int;
+
+    const auto particles = Bonds::relevant_particles(mesh, alpha, horizon);
+    const auto supports  = Bonds::find_supports(mesh, particles, horizon);
+
+    // Quadrature data of the cells that owned particles average over.
+    std::vector<unsigned int>                 slot(mesh.n_cells(), not_needed);
+    std::vector<Geometry>                     geometries;
+    std::vector<std::array<double, n_points>> weight_sums;
+    for (std::size_t p = 0; p < particles.size(); ++p)
+      if (mesh.owns_node(particles[p].node))
+        for (const unsigned int c : supports.row(p))
+          if (slot[c] == not_needed)
+            {
+              slot[c] = geometries.size();
+              geometries.emplace_back(mesh.corners(c));
+              weight_sums.push_back({});
+            }
+
+    const auto averaging = [&](const unsigned int node,
+                               const Geometry    &geometry,
+                               const unsigned int q) {
+      return alpha[node] * mesh.volume[node] *
+             Peridynamics::averaging_weight(
+               parameters.influence,
+               geometry.points[q].distance(mesh.nodes[node]) / horizon[node]);
+    };
+    for (std::size_t p = 0; p < particles.size(); ++p)
+      for (const unsigned int c : supports.row(p))
+        if (slot[c] != not_needed)
+          for (unsigned int q = 0; q < n_points; ++q)
+            weight_sums[slot[c]][q] +=
+              averaging(particles[p].node, geometries[slot[c]], q);
+
+    Peridynamics::FamilySet<dim> set;
+    FamilyScratch<dim>           scratch(mesh.n_nodes());
+    for (std::size_t p = 0; p < particles.size(); ++p)
+      {
+        const unsigned int node = particles[p].node;
+        if (!mesh.owns_node(node))
+          continue;
+        double weight = 0.;
+        for (const unsigned int c : supports.row(p))
           {
-            const Mesh::CellGeometry<dim> geometry(mesh.corners(c));
-            for (unsigned int v = 0; v < geometry.n_nodes; ++v)
+            const Geometry &geometry = geometries[slot[c]];
+            for (unsigned int q = 0; q < n_points; ++q)
               {
-                scratch.at(mesh.cells[c][v]);
-                if (mesh.cells[c][v] == node)
-                  for (unsigned int q = 0; q < geometry.n_points; ++q)
-                    volume += geometry.jxw[q] * geometry.shape_value(q, v);
+                double alpha_at_point = 0.;
+                for (unsigned int v = 0; v < Geometry::n_nodes; ++v)
+                  alpha_at_point +=
+                    alpha[mesh.cells[c][v]] * Geometry::shape_value(q, v);
+                const double share = geometry.jxw[q] * alpha_at_point *
+                                     averaging(node, geometry, q) /
+                                     weight_sums[slot[c]][q];
+                weight += share;
+                for (unsigned int v = 0; v < Geometry::n_nodes; ++v)
+                  scratch.at(mesh.cells[c][v]) +=
+                    share * geometry.gradients[q][v];
               }
           }
-      cloud.within(mesh.nodes[node],
-                   horizon[node] * (1. + Bonds::horizon_slack),
-                   near);
-      for (const unsigned int n : near)
-        for (const unsigned int c : mesh.node_cells.row(n))
-          if (mesh.cell_material[c] == particle.material)
-            scratch.at(n);
-      for (const unsigned int n : scratch.sorted_nodes())
-        if (n != node)
-          {
-            const double r =
-              mesh.nodes[n].distance(mesh.nodes[node]) / horizon[node];
-            set.neighbor.push_back(n);
-            set.gradient_weight.push_back(dealii::Tensor<1, dim>());
-            set.bond_weight.push_back(
-              mesh.volume[n] *
-              std::max(r <= 1. + Bonds::horizon_slack ?
-                         Peridynamics::influence(parameters.influence, r) :
-                         0.,
-                       Peridynamics::smallest_influence));
-          }
-      scratch.clear();
-      close_family(
-        mesh, particle, alpha[node] * volume, parameters, set, true);
-    }
-  return set;
-}
+        for (const unsigned int n : scratch.sorted_nodes())
+          if (n != node)
+            {
+              const double r =
+                mesh.nodes[n].distance(mesh.nodes[node]) / horizon[node];
+              set.neighbor.push_back(n);
+              set.gradient_weight.push_back(scratch.at(n) / weight);
+              set.bond_weight.push_back(
+                mesh.volume[n] *
+                std::max(r <= 1. + Bonds::horizon_slack
+                           ? Peridynamics::influence(parameters.influence, r)
+                           : 0.,
+                         Peridynamics::smallest_influence));
+            }
+        scratch.clear();
+        close_family(mesh, particles[p], weight, parameters, set, false);
+      }
+    return set;
+  }
 
-template Peridynamics::FamilySet<2>
-consistent_families<2>(const Mesh::NodalMesh<2> &,
-                       const std::vector<double> &,
-                       const std::vector<double> &,
-                       const FamilyParameters &);
-template Peridynamics::FamilySet<3>
-consistent_families<3>(const Mesh::NodalMesh<3> &,
-                       const std::vector<double> &,
-                       const std::vector<double> &,
-                       const FamilyParameters &);
-template Peridynamics::FamilySet<2>
-classical_families<2>(const Mesh::NodalMesh<2> &,
-                      const std::vector<double> &,
-                      const std::vector<double> &,
-                      const FamilyParameters &);
-template Peridynamics::FamilySet<3>
-classical_families<3>(const Mesh::NodalMesh<3> &,
-                      const std::vector<double> &,
-                      const std::vector<double> &,
-                      const FamilyParameters &);
+  template <int dim>
+  Peridynamics::FamilySet<dim>
+  classical_families(const Mesh::NodalMesh<dim> &mesh,
+                     const std::vector<double>  &alpha,
+                     const std::vector<double>  &horizon,
+                     const FamilyParameters     &parameters)
+  {
+    const auto particles = Bonds::relevant_particles(mesh, alpha, horizon);
+    const Base::PointCloud<dim> cloud(mesh.nodes);
+
+    Peridynamics::FamilySet<dim> set;
+    FamilyScratch<dim>           scratch(mesh.n_nodes());
+    std::vector<unsigned int>    near;
+    for (const auto &particle : particles)
+      {
+        const unsigned int node = particle.node;
+        if (!mesh.owns_node(node))
+          continue;
+        double volume = 0.;
+        for (const unsigned int c : mesh.node_cells.row(node))
+          if (mesh.cell_material[c] == particle.material)
+            {
+              const Mesh::CellGeometry<dim> geometry(mesh.corners(c));
+              for (unsigned int v = 0; v < geometry.n_nodes; ++v)
+                {
+                  scratch.at(mesh.cells[c][v]);
+                  if (mesh.cells[c][v] == node)
+                    for (unsigned int q = 0; q < geometry.n_points; ++q)
+                      volume += geometry.jxw[q] * geometry.shape_value(q, v);
+                }
+            }
+        cloud.within(mesh.nodes[node],
+                     horizon[node] * (1. + Bonds::horizon_slack),
+                     near);
+        for (const unsigned int n : near)
+          for (const unsigned int c : mesh.node_cells.row(n))
+            if (mesh.cell_material[c] == particle.material)
+              scratch.at(n);
+        for (const unsigned int n : scratch.sorted_nodes())
+          if (n != node)
+            {
+              const double r =
+                mesh.nodes[n].distance(mesh.nodes[node]) / horizon[node];
+              set.neighbor.push_back(n);
+              set.gradient_weight.push_back(dealii::Tensor<1, dim>());
+              set.bond_weight.push_back(
+                mesh.volume[n] *
+                std::max(r <= 1. + Bonds::horizon_slack
+                           ? Peridynamics::influence(parameters.influence, r)
+                           : 0.,
+                         Peridynamics::smallest_influence));
+            }
+        scratch.clear();
+        close_family(mesh,
+                     particle,
+                     alpha[node] * volume,
+                     parameters,
+                     set,
+                     true);
+      }
+    return set;
+  }
+
+  template Peridynamics::FamilySet<2>
+  consistent_families<2>(const Mesh::NodalMesh<2> &,
+                         const std::vector<double> &,
+                         const std::vector<double> &,
+                         const FamilyParameters &);
+  template Peridynamics::FamilySet<3>
+  consistent_families<3>(const Mesh::NodalMesh<3> &,
+                         const std::vector<double> &,
+                         const std::vector<double> &,
+                         const FamilyParameters &);
+  template Peridynamics::FamilySet<2>
+  classical_families<2>(const Mesh::NodalMesh<2> &,
+                        const std::vector<double> &,
+                        const std::vector<double> &,
+                        const FamilyParameters &);
+  template Peridynamics::FamilySet<3>
+  classical_families<3>(const Mesh::NodalMesh<3> &,
+                        const std::vector<double> &,
+                        const std::vector<double> &,
+                        const FamilyParameters &);
 } // namespace Perimorph::Coupling

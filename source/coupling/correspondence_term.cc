@@ -6,236 +6,236 @@
 
 namespace Perimorph::Coupling
 {
-namespace
-{
-template <int dim>
-dealii::Tensor<2, dim>
-deformation_gradient(const dealii::Tensor<2, dim> &H)
-{
-  return dealii::Tensor<2, dim>(
-           dealii::Physics::Elasticity::StandardTensors<dim>::I) +
-         H;
-}
-} // namespace
-
-template <int dim>
-CorrespondenceTerm<dim>::CorrespondenceTerm(
-  Peridynamics::FamilySet<dim>   families_,
-  const Fem::NodePartition<dim> &partition,
-  const MaterialList            &materials)
-  : families(std::move(families_))
-  , materials(materials)
-{
-  for (auto &node : families.node)
-    node = partition.local(node);
-  for (auto &node : families.neighbor)
-    node = partition.local(node);
-  xi.reserve(families.n_bonds());
-  for (std::size_t p = 0; p < families.n_particles(); ++p)
+  namespace
+  {
+    template <int dim>
+    dealii::Tensor<2, dim>
+    deformation_gradient(const dealii::Tensor<2, dim> &H)
     {
-      largest_family =
-        std::max<unsigned int>(largest_family,
-                               families.offsets[p + 1] - families.offsets[p]);
-      for (std::size_t b = families.offsets[p]; b < families.offsets[p + 1];
-           ++b)
-        xi.push_back(partition.position(families.neighbor[b]) -
-                     partition.position(families.node[p]));
+      return dealii::Tensor<2, dim>(
+               dealii::Physics::Elasticity::StandardTensors<dim>::I) +
+             H;
     }
-}
+  } // namespace
 
-template <int dim>
-std::string
-CorrespondenceTerm<dim>::name() const
-{
-  return "correspondence families";
-}
+  template <int dim>
+  CorrespondenceTerm<dim>::CorrespondenceTerm(
+    Peridynamics::FamilySet<dim>   families_,
+    const Fem::NodePartition<dim> &partition,
+    const MaterialList            &materials)
+    : families(std::move(families_))
+    , materials(materials)
+  {
+    for (auto &node : families.node)
+      node = partition.local(node);
+    for (auto &node : families.neighbor)
+      node = partition.local(node);
+    xi.reserve(families.n_bonds());
+    for (std::size_t p = 0; p < families.n_particles(); ++p)
+      {
+        largest_family =
+          std::max<unsigned int>(largest_family,
+                                 families.offsets[p + 1] - families.offsets[p]);
+        for (std::size_t b = families.offsets[p]; b < families.offsets[p + 1];
+             ++b)
+          xi.push_back(partition.position(families.neighbor[b]) -
+                       partition.position(families.node[p]));
+      }
+  }
 
-template <int dim>
-bool
-CorrespondenceTerm<dim>::is_linear() const
-{
-  for (const auto &material : materials)
-    if (!material->is_linear())
-      return false;
-  return true;
-}
+  template <int dim>
+  std::string
+  CorrespondenceTerm<dim>::name() const
+  {
+    return "correspondence families";
+  }
 
-template <int dim>
-Peridynamics::Family<dim>
-CorrespondenceTerm<dim>::family(const unsigned int particle) const
-{
-  const std::size_t first = families.offsets[particle];
-  return {static_cast<unsigned int>(families.offsets[particle + 1] - first),
-          xi.data() + first,
-          families.gradient_weight.data() + first,
-          families.bond_weight.data() + first,
-          families.stabilization[particle]};
-}
-
-template <int dim>
-void
-CorrespondenceTerm<dim>::relative_displacements(
-  const unsigned int      particle,
-  const double           *vector,
-  dealii::Tensor<1, dim> *eta) const
-{
-  const auto        own   = this->value_at(vector, families.node[particle]);
-  const std::size_t first = families.offsets[particle];
-  const std::size_t n     = families.offsets[particle + 1] - first;
-  for (std::size_t b = 0; b < n; ++b)
-    eta[b] = this->value_at(vector, families.neighbor[first + b]) - own;
-}
-
-template <int dim>
-void
-CorrespondenceTerm<dim>::scatter(const unsigned int            particle,
-                                 const dealii::Tensor<1, dim> *forces,
-                                 double                       *vector) const
-{
-  const double           weight = families.weight[particle];
-  const std::size_t      first  = families.offsets[particle];
-  const std::size_t      n      = families.offsets[particle + 1] - first;
-  dealii::Tensor<1, dim> sum;
-  for (std::size_t b = 0; b < n; ++b)
-    {
-      const auto force = weight * forces[b];
-      sum += force;
-      this->add_at(vector, families.neighbor[first + b], force);
-    }
-  this->add_at(vector, families.node[particle], -sum);
-}
-
-template <int dim>
-double
-CorrespondenceTerm<dim>::energy(const Vector &displacement) const
-{
-  std::vector<dealii::Tensor<1, dim>> eta(largest_family);
-  double                              sum = 0.;
-  for (unsigned int p = 0; p < families.n_particles(); ++p)
-    {
-      relative_displacements(p, displacement.begin(), eta.data());
-      const auto one = family(p);
-      const auto H   = displacement_gradient(one, eta.data());
-      sum += families.weight[p] *
-             (materials[families.material[p]]->energy_density(
-                deformation_gradient(H)) +
-              stabilization_energy(one, eta.data(), H));
-    }
-  return sum;
-}
-
-template <int dim>
-void
-CorrespondenceTerm<dim>::add_residual(const Vector &displacement,
-                                      Vector       &residual) const
-{
-  std::vector<dealii::Tensor<1, dim>> eta(largest_family);
-  std::vector<dealii::Tensor<1, dim>> forces(largest_family);
-  for (unsigned int p = 0; p < families.n_particles(); ++p)
-    {
-      relative_displacements(p, displacement.begin(), eta.data());
-      const auto one = family(p);
-      const auto H   = displacement_gradient(one, eta.data());
-      family_forces(one,
-                    eta.data(),
-                    H,
-                    materials[families.material[p]]->first_piola_kirchhoff(
-                      deformation_gradient(H)),
-                    forces.data());
-      scatter(p, forces.data(), residual.begin());
-    }
-}
-
-template <int dim>
-void
-CorrespondenceTerm<dim>::add_tangent_product(const Vector &displacement,
-                                             const Vector &direction,
-                                             Vector       &product) const
-{
-  std::vector<dealii::Tensor<1, dim>> eta(largest_family);
-  std::vector<dealii::Tensor<1, dim>> forces(largest_family);
-  const bool                          linear = is_linear();
-  std::vector<dealii::Tensor<4, dim>> constant_tangent;
-  if (linear)
+  template <int dim>
+  bool
+  CorrespondenceTerm<dim>::is_linear() const
+  {
     for (const auto &material : materials)
-      constant_tangent.push_back(
-        material->tangent(deformation_gradient(dealii::Tensor<2, dim>())));
+      if (!material->is_linear())
+        return false;
+    return true;
+  }
 
-  for (unsigned int p = 0; p < families.n_particles(); ++p)
-    {
-      const auto one      = family(p);
-      const auto material = families.material[p];
+  template <int dim>
+  Peridynamics::Family<dim>
+  CorrespondenceTerm<dim>::family(const unsigned int particle) const
+  {
+    const std::size_t first = families.offsets[particle];
+    return {static_cast<unsigned int>(families.offsets[particle + 1] - first),
+            xi.data() + first,
+            families.gradient_weight.data() + first,
+            families.bond_weight.data() + first,
+            families.stabilization[particle]};
+  }
 
-      dealii::Tensor<4, dim> A;
-      if (linear)
-        A = constant_tangent[material];
-      else
-        {
-          relative_displacements(p, displacement.begin(), eta.data());
-          A = materials[material]->tangent(
-            deformation_gradient(displacement_gradient(one, eta.data())));
-        }
-      relative_displacements(p, direction.begin(), eta.data());
-      const auto dH = displacement_gradient(one, eta.data());
-      const auto dP = dealii::double_contract<2, 0, 3, 1>(A, dH);
-      family_forces(one, eta.data(), dH, dP, forces.data());
-      scatter(p, forces.data(), product.begin());
-    }
-}
+  template <int dim>
+  void
+  CorrespondenceTerm<dim>::relative_displacements(
+    const unsigned int      particle,
+    const double           *vector,
+    dealii::Tensor<1, dim> *eta) const
+  {
+    const auto        own   = this->value_at(vector, families.node[particle]);
+    const std::size_t first = families.offsets[particle];
+    const std::size_t n     = families.offsets[particle + 1] - first;
+    for (std::size_t b = 0; b < n; ++b)
+      eta[b] = this->value_at(vector, families.neighbor[first + b]) - own;
+  }
 
-template <int dim>
-unsigned int
-CorrespondenceTerm<dim>::n_blocks() const
-{
-  return families.n_particles();
-}
+  template <int dim>
+  void
+  CorrespondenceTerm<dim>::scatter(const unsigned int            particle,
+                                   const dealii::Tensor<1, dim> *forces,
+                                   double                       *vector) const
+  {
+    const double           weight = families.weight[particle];
+    const std::size_t      first  = families.offsets[particle];
+    const std::size_t      n      = families.offsets[particle + 1] - first;
+    dealii::Tensor<1, dim> sum;
+    for (std::size_t b = 0; b < n; ++b)
+      {
+        const auto force = weight * forces[b];
+        sum += force;
+        this->add_at(vector, families.neighbor[first + b], force);
+      }
+    this->add_at(vector, families.node[particle], -sum);
+  }
 
-template <int dim>
-void
-CorrespondenceTerm<dim>::block_nodes(const unsigned int         block,
-                                     std::vector<unsigned int> &nodes) const
-{
-  nodes.assign(1, families.node[block]);
-  nodes.insert(nodes.end(),
-               families.neighbor.begin() + families.offsets[block],
-               families.neighbor.begin() + families.offsets[block + 1]);
-}
+  template <int dim>
+  double
+  CorrespondenceTerm<dim>::energy(const Vector &displacement) const
+  {
+    std::vector<dealii::Tensor<1, dim>> eta(largest_family);
+    double                              sum = 0.;
+    for (unsigned int p = 0; p < families.n_particles(); ++p)
+      {
+        relative_displacements(p, displacement.begin(), eta.data());
+        const auto one = family(p);
+        const auto H   = displacement_gradient(one, eta.data());
+        sum +=
+          families.weight[p] * (materials[families.material[p]]->energy_density(
+                                  deformation_gradient(H)) +
+                                stabilization_energy(one, eta.data(), H));
+      }
+    return sum;
+  }
 
-template <int dim>
-void
-CorrespondenceTerm<dim>::block_tangent(
-  const unsigned int          block,
-  const Vector               &displacement,
-  dealii::FullMatrix<double> &matrix) const
-{
-  std::vector<dealii::Tensor<1, dim>> eta(largest_family);
-  relative_displacements(block, displacement.begin(), eta.data());
-  const auto one = family(block);
-  const auto H   = displacement_gradient(one, eta.data());
-  family_tangent(one,
-                 materials[families.material[block]]->tangent(
-                   deformation_gradient(H)),
-                 matrix);
-  matrix *= families.weight[block];
-}
+  template <int dim>
+  void
+  CorrespondenceTerm<dim>::add_residual(const Vector &displacement,
+                                        Vector       &residual) const
+  {
+    std::vector<dealii::Tensor<1, dim>> eta(largest_family);
+    std::vector<dealii::Tensor<1, dim>> forces(largest_family);
+    for (unsigned int p = 0; p < families.n_particles(); ++p)
+      {
+        relative_displacements(p, displacement.begin(), eta.data());
+        const auto one = family(p);
+        const auto H   = displacement_gradient(one, eta.data());
+        family_forces(one,
+                      eta.data(),
+                      H,
+                      materials[families.material[p]]->first_piola_kirchhoff(
+                        deformation_gradient(H)),
+                      forces.data());
+        scatter(p, forces.data(), residual.begin());
+      }
+  }
 
-template <int dim>
-void
-add_family_nodes(const Peridynamics::FamilySet<dim> &families,
-                 std::vector<unsigned int>          &needed)
-{
-  needed.insert(needed.end(), families.node.begin(), families.node.end());
-  needed.insert(needed.end(),
-                families.neighbor.begin(),
-                families.neighbor.end());
-}
+  template <int dim>
+  void
+  CorrespondenceTerm<dim>::add_tangent_product(const Vector &displacement,
+                                               const Vector &direction,
+                                               Vector       &product) const
+  {
+    std::vector<dealii::Tensor<1, dim>> eta(largest_family);
+    std::vector<dealii::Tensor<1, dim>> forces(largest_family);
+    const bool                          linear = is_linear();
+    std::vector<dealii::Tensor<4, dim>> constant_tangent;
+    if (linear)
+      for (const auto &material : materials)
+        constant_tangent.push_back(
+          material->tangent(deformation_gradient(dealii::Tensor<2, dim>())));
 
-template class CorrespondenceTerm<2>;
-template class CorrespondenceTerm<3>;
-template void
-add_family_nodes<2>(const Peridynamics::FamilySet<2> &,
-                    std::vector<unsigned int> &);
-template void
-add_family_nodes<3>(const Peridynamics::FamilySet<3> &,
-                    std::vector<unsigned int> &);
+    for (unsigned int p = 0; p < families.n_particles(); ++p)
+      {
+        const auto one      = family(p);
+        const auto material = families.material[p];
+
+        dealii::Tensor<4, dim> A;
+        if (linear)
+          A = constant_tangent[material];
+        else
+          {
+            relative_displacements(p, displacement.begin(), eta.data());
+            A = materials[material]->tangent(
+              deformation_gradient(displacement_gradient(one, eta.data())));
+          }
+        relative_displacements(p, direction.begin(), eta.data());
+        const auto dH = displacement_gradient(one, eta.data());
+        const auto dP = dealii::double_contract<2, 0, 3, 1>(A, dH);
+        family_forces(one, eta.data(), dH, dP, forces.data());
+        scatter(p, forces.data(), product.begin());
+      }
+  }
+
+  template <int dim>
+  unsigned int
+  CorrespondenceTerm<dim>::n_blocks() const
+  {
+    return families.n_particles();
+  }
+
+  template <int dim>
+  void
+  CorrespondenceTerm<dim>::block_nodes(const unsigned int         block,
+                                       std::vector<unsigned int> &nodes) const
+  {
+    nodes.assign(1, families.node[block]);
+    nodes.insert(nodes.end(),
+                 families.neighbor.begin() + families.offsets[block],
+                 families.neighbor.begin() + families.offsets[block + 1]);
+  }
+
+  template <int dim>
+  void
+  CorrespondenceTerm<dim>::block_tangent(
+    const unsigned int          block,
+    const Vector               &displacement,
+    dealii::FullMatrix<double> &matrix) const
+  {
+    std::vector<dealii::Tensor<1, dim>> eta(largest_family);
+    relative_displacements(block, displacement.begin(), eta.data());
+    const auto one = family(block);
+    const auto H   = displacement_gradient(one, eta.data());
+    family_tangent(
+      one,
+      materials[families.material[block]]->tangent(deformation_gradient(H)),
+      matrix);
+    matrix *= families.weight[block];
+  }
+
+  template <int dim>
+  void
+  add_family_nodes(const Peridynamics::FamilySet<dim> &families,
+                   std::vector<unsigned int>          &needed)
+  {
+    needed.insert(needed.end(), families.node.begin(), families.node.end());
+    needed.insert(needed.end(),
+                  families.neighbor.begin(),
+                  families.neighbor.end());
+  }
+
+  template class CorrespondenceTerm<2>;
+  template class CorrespondenceTerm<3>;
+  template void
+  add_family_nodes<2>(const Peridynamics::FamilySet<2> &,
+                      std::vector<unsigned int> &);
+  template void
+  add_family_nodes<3>(const Peridynamics::FamilySet<3> &,
+                      std::vector<unsigned int> &);
 } // namespace Perimorph::Coupling

@@ -5,7 +5,6 @@
 #include <perimorph/coupling/coupled_problem.h>
 
 #include <deal.II/base/mpi.h>
-
 #include <deal.II/physics/elasticity/standard_tensors.h>
 
 #include <algorithm>
@@ -13,378 +12,383 @@
 
 namespace Perimorph::Coupling
 {
-const std::vector<std::string> &
-model_names()
-{
-  static const std::vector<std::string> names = {"correspondence",
-                                                 "bond based"};
-  return names;
-}
+  const std::vector<std::string> &
+  model_names()
+  {
+    static const std::vector<std::string> names = {"correspondence",
+                                                   "bond based"};
+    return names;
+  }
 
-const std::vector<std::string> &
-scheme_names()
-{
-  static const std::vector<std::string> names = {"consistent",
-                                                 "energy blending",
-                                                 "force blending"};
-  return names;
-}
+  const std::vector<std::string> &
+  scheme_names()
+  {
+    static const std::vector<std::string> names = {"consistent",
+                                                   "energy blending",
+                                                   "force blending"};
+    return names;
+  }
 
-namespace
-{
-/// One at every node whose family reaches a peridynamic node: force blending
-/// weights equations, not families, so these families are complete.
-template <int dim>
-std::vector<double>
-extended_weight(const Mesh::NodalMesh<dim> &mesh,
-                const Mesh::RegionMap      &region)
-{
-  std::vector<double>         extended(mesh.n_nodes(), 0.);
-  const Base::PointCloud<dim> cloud(mesh.nodes);
-  std::vector<unsigned int>   near;
-  for (unsigned int n = 0; n < mesh.n_nodes(); ++n)
-    if (region.alpha[n] > 0.)
+  namespace
+  {
+    /// One at every node whose family reaches a peridynamic node: force
+    /// blending weights equations, not families, so these families are
+    /// complete.
+    template <int dim>
+    std::vector<double>
+    extended_weight(const Mesh::NodalMesh<dim> &mesh,
+                    const Mesh::RegionMap      &region)
+    {
+      std::vector<double>         extended(mesh.n_nodes(), 0.);
+      const Base::PointCloud<dim> cloud(mesh.nodes);
+      std::vector<unsigned int>   near;
+      for (unsigned int n = 0; n < mesh.n_nodes(); ++n)
+        if (region.alpha[n] > 0.)
+          {
+            cloud.within(mesh.nodes[n],
+                         1.5 * region.horizon[n] + mesh.spacing[n],
+                         near);
+            for (const unsigned int k : near)
+              extended[k] = 1.;
+          }
+      return extended;
+    }
+
+    /// Cells whose nodes are all purely peridynamic.
+    template <int dim>
+    std::vector<bool>
+    core_cells(const Mesh::NodalMesh<dim> &mesh,
+               const std::vector<double>  &alpha)
+    {
+      std::vector<bool> core(mesh.n_cells(), true);
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        for (const unsigned int n : mesh.cells[c])
+          core[c] = core[c] && alpha[n] == 1.;
+      return core;
+    }
+
+    template <int dim>
+    std::vector<double>
+    local_weights(const Fem::NodePartition<dim> &partition,
+                  const std::vector<double>     &alpha,
+                  const bool                     of_elements)
+    {
+      std::vector<double> weights(partition.n_local());
+      for (unsigned int n = 0; n < partition.n_local(); ++n)
+        {
+          const double a = alpha[partition.global(n)];
+          weights[n]     = of_elements ? 1. - a : a;
+        }
+      return weights;
+    }
+
+    std::vector<double>
+    complement(const std::vector<double> &alpha)
+    {
+      std::vector<double> result;
+      for (const double a : alpha)
+        result.push_back(1. - a);
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  CoupledProblem<dim>::CoupledProblem(const Mesh::DistributedMesh<dim> &mesh,
+                                      const Mesh::RegionMap            &region,
+                                      const BodyMaterials<dim> &materials,
+                                      const CouplingParameters &parameters,
+                                      const Progress           &progress)
+    : mesh(mesh)
+    , materials(materials)
+  {
+    if (region.n_core + region.n_blending == 0)
       {
-        cloud.within(mesh.nodes[n],
-                     1.5 * region.horizon[n] + mesh.spacing[n],
-                     near);
-        for (const unsigned int k : near)
-          extended[k] = 1.;
+        std::vector<unsigned int> needed;
+        Fem::add_cell_nodes(mesh.nodal(), needed);
+        node_partition =
+          std::make_unique<Fem::NodePartition<dim>>(mesh.nodal(),
+                                                    needed,
+                                                    mesh.communicator());
+        contributions.push_back(
+          std::make_unique<Fem::ElasticCells<dim>>(mesh.nodal(),
+                                                   *node_partition,
+                                                   materials.laws,
+                                                   std::vector<double>()));
       }
-  return extended;
-}
+    else if (parameters.model == Model::correspondence)
+      make_correspondence(region, parameters);
+    else
+      make_bonds(region, parameters, progress);
 
-/// Cells whose nodes are all purely peridynamic.
-template <int dim>
-std::vector<bool>
-core_cells(const Mesh::NodalMesh<dim> &mesh, const std::vector<double> &alpha)
-{
-  std::vector<bool> core(mesh.n_cells(), true);
-  for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-    for (const unsigned int n : mesh.cells[c])
-      core[c] = core[c] && alpha[n] == 1.;
-  return core;
-}
+    all_cells = std::make_unique<Fem::ElasticCells<dim>>(mesh.nodal(),
+                                                         *node_partition,
+                                                         materials.laws,
+                                                         std::vector<double>());
+    for (const auto &term : contributions)
+      if (dynamic_cast<const Fem::ElasticCells<dim> *>(term.get()))
+        local_counts.active_cells += term->n_blocks();
+  }
 
-template <int dim>
-std::vector<double>
-local_weights(const Fem::NodePartition<dim> &partition,
-              const std::vector<double>     &alpha,
-              const bool                     of_elements)
-{
-  std::vector<double> weights(partition.n_local());
-  for (unsigned int n = 0; n < partition.n_local(); ++n)
-    {
-      const double a = alpha[partition.global(n)];
-      weights[n]     = of_elements ? 1. - a : a;
-    }
-  return weights;
-}
+  template <int dim>
+  void
+  CoupledProblem<dim>::make_correspondence(const Mesh::RegionMap    &region,
+                                           const CouplingParameters &parameters)
+  {
+    const auto      &nodal  = mesh.nodal();
+    const bool       forces = parameters.scheme == Scheme::force_blending;
+    FamilyParameters options{parameters.influence, parameters.gamma, {}};
+    for (const auto &law : materials.laws)
+      options.shear_modulus.push_back(law->shear_modulus());
 
-std::vector<double>
-complement(const std::vector<double> &alpha)
-{
-  std::vector<double> result;
-  for (const double a : alpha)
-    result.push_back(1. - a);
-  return result;
-}
-} // namespace
-
-template <int dim>
-CoupledProblem<dim>::CoupledProblem(const Mesh::DistributedMesh<dim> &mesh,
-                                    const Mesh::RegionMap            &region,
-                                    const BodyMaterials<dim> &materials,
-                                    const CouplingParameters &parameters,
-                                    const Progress           &progress)
-  : mesh(mesh)
-  , materials(materials)
-{
-  if (region.n_core + region.n_blending == 0)
-    {
-      std::vector<unsigned int> needed;
-      Fem::add_cell_nodes(mesh.nodal(), needed);
-      node_partition =
-        std::make_unique<Fem::NodePartition<dim>>(mesh.nodal(),
-                                                  needed,
-                                                  mesh.communicator());
-      contributions.push_back(std::make_unique<Fem::ElasticCells<dim>>(
-        mesh.nodal(), *node_partition, materials.laws, std::vector<double>()));
-    }
-  else if (parameters.model == Model::correspondence)
-    make_correspondence(region, parameters);
-  else
-    make_bonds(region, parameters, progress);
-
-  all_cells = std::make_unique<Fem::ElasticCells<dim>>(mesh.nodal(),
-                                                       *node_partition,
-                                                       materials.laws,
-                                                       std::vector<double>());
-  for (const auto &term : contributions)
-    if (dynamic_cast<const Fem::ElasticCells<dim> *>(term.get()))
-      local_counts.active_cells += term->n_blocks();
-}
-
-template <int dim>
-void
-CoupledProblem<dim>::make_correspondence(const Mesh::RegionMap    &region,
-                                         const CouplingParameters &parameters)
-{
-  const auto      &nodal   = mesh.nodal();
-  const bool       forces  = parameters.scheme == Scheme::force_blending;
-  FamilyParameters options{parameters.influence, parameters.gamma, {}};
-  for (const auto &law : materials.laws)
-    options.shear_modulus.push_back(law->shear_modulus());
-
-  Peridynamics::FamilySet<dim> set;
-  Base::collectively(mesh.communicator(), [&]() {
-    set = parameters.scheme == Scheme::consistent ?
-            consistent_families(nodal, region.alpha, region.horizon, options) :
-            classical_families(nodal,
-                               forces ? extended_weight(nodal, region) :
-                                        region.alpha,
+    Peridynamics::FamilySet<dim> set;
+    Base::collectively(mesh.communicator(), [&]() {
+      set =
+        parameters.scheme == Scheme::consistent
+          ? consistent_families(nodal, region.alpha, region.horizon, options)
+          : classical_families(nodal,
+                               forces ? extended_weight(nodal, region)
+                                      : region.alpha,
                                region.horizon,
                                options);
-  });
-  local_counts.particles = set.n_particles();
-  local_counts.bonds     = set.n_bonds();
+    });
+    local_counts.particles = set.n_particles();
+    local_counts.bonds     = set.n_bonds();
 
-  std::vector<unsigned int> needed;
-  Fem::add_cell_nodes(nodal, needed);
-  add_family_nodes(set, needed);
-  node_partition =
-    std::make_unique<Fem::NodePartition<dim>>(nodal,
-                                              needed,
-                                              mesh.communicator());
+    std::vector<unsigned int> needed;
+    Fem::add_cell_nodes(nodal, needed);
+    add_family_nodes(set, needed);
+    node_partition =
+      std::make_unique<Fem::NodePartition<dim>>(nodal,
+                                                needed,
+                                                mesh.communicator());
 
-  auto elements = std::make_unique<Fem::ElasticCells<dim>>(
-    nodal,
-    *node_partition,
-    materials.laws,
-    forces ? std::vector<double>() : complement(region.alpha),
-    forces ? core_cells(nodal, region.alpha) : std::vector<bool>());
-  auto term = std::make_unique<CorrespondenceTerm<dim>>(std::move(set),
-                                                        *node_partition,
-                                                        materials.laws);
-  if (forces)
-    {
-      elements->set_row_weights(
-        local_weights(*node_partition, region.alpha, true));
-      term->set_row_weights(
-        local_weights(*node_partition, region.alpha, false));
-    }
-  families.push_back(term.get());
-  if (dealii::Utilities::MPI::max(elements->n_blocks(), mesh.communicator()) >
-      0)
-    contributions.push_back(std::move(elements));
-  contributions.push_back(std::move(term));
-}
-
-template <int dim>
-void
-CoupledProblem<dim>::make_bonds(const Mesh::RegionMap    &region,
-                                const CouplingParameters &parameters,
-                                const Progress           &progress)
-{
-  const auto &nodal      = mesh.nodal();
-  const bool  forces     = parameters.scheme == Scheme::force_blending;
-  const bool  consistent = parameters.scheme == Scheme::consistent;
-  BondCoupling<dim> coupling;
-  Base::collectively(mesh.communicator(), [&]() {
-    coupling = make_bond_coupling(
+    auto elements = std::make_unique<Fem::ElasticCells<dim>>(
       nodal,
-      forces ? extended_weight(nodal, region) : region.alpha,
-      region.horizon,
-      materials.bond_constants,
-      consistent,
-      progress);
-  });
-  local_counts.bonds   = coupling.bonds.nodes.size();
-  local_counts.dropped = coupling.bonds.n_dropped;
-  for (unsigned int n = nodal.owned_begin; n < nodal.owned_end; ++n)
-    local_counts.particles += region.alpha[n] > 0. ? 1 : 0;
-
-  std::vector<unsigned int> needed;
-  Fem::add_cell_nodes(nodal, needed);
-  add_bond_nodes(coupling.bonds, needed);
-  node_partition =
-    std::make_unique<Fem::NodePartition<dim>>(nodal,
-                                              needed,
-                                              mesh.communicator());
-  auto elements = std::make_unique<Fem::ElasticCells<dim>>(
-    nodal,
-    *node_partition,
-    materials.laws,
-    forces || consistent ? std::vector<double>() : complement(region.alpha),
-    forces ? core_cells(nodal, region.alpha) : std::vector<bool>());
-  auto term =
-    std::make_unique<BondTerm<dim>>(coupling.bonds, *node_partition);
-  if (forces)
-    {
-      elements->set_row_weights(
-        local_weights(*node_partition, region.alpha, true));
-      term->set_row_weights(
-        local_weights(*node_partition, region.alpha, false));
-    }
-  if (dealii::Utilities::MPI::max(elements->n_blocks(), mesh.communicator()) >
-      0)
-    contributions.push_back(std::move(elements));
-  contributions.push_back(std::move(term));
-  if (consistent)
-    contributions.push_back(
-      std::make_unique<SegmentTerm<dim>>(nodal, *node_partition, coupling));
-}
-
-template <int dim>
-std::vector<const Fem::Contribution<dim> *>
-CoupledProblem<dim>::terms() const
-{
-  std::vector<const Term *> list;
-  for (const auto &term : contributions)
-    list.push_back(term.get());
-  return list;
-}
-
-template <int dim>
-std::vector<const Fem::Contribution<dim> *>
-CoupledProblem<dim>::family_terms() const
-{
-  return families;
-}
-
-template <int dim>
-std::vector<const Fem::Contribution<dim> *>
-CoupledProblem<dim>::assembled_terms() const
-{
-  std::vector<const Term *> list;
-  for (const auto &term : contributions)
-    if (std::find(families.begin(), families.end(), term.get()) ==
-        families.end())
-      list.push_back(term.get());
-  return list;
-}
-
-template <int dim>
-bool
-CoupledProblem<dim>::is_linear() const
-{
-  return std::all_of(contributions.begin(),
-                     contributions.end(),
-                     [](const auto &term) { return term->is_linear(); });
-}
-
-template <int dim>
-bool
-CoupledProblem<dim>::is_symmetric() const
-{
-  return std::all_of(contributions.begin(),
-                     contributions.end(),
-                     [](const auto &term) { return term->is_symmetric(); });
-}
-
-template <int dim>
-void
-CoupledProblem<dim>::internal_forces(const Vector &displacement,
-                                     Vector       &forces) const
-{
-  forces.zero_out_ghost_values();
-  forces = 0.;
-  for (const auto &term : contributions)
-    term->add_residual(displacement, forces);
-  forces.compress(dealii::VectorOperation::add);
-}
-
-template <int dim>
-double
-CoupledProblem<dim>::strain_energy(const Vector &displacement) const
-{
-  if (!is_symmetric())
-    {
-      // Blended equations have no energy; the work of the forces stands in.
-      Vector forces;
-      partition().initialize(forces);
-      internal_forces(displacement, forces);
-      return 0.5 * (forces * displacement);
-    }
-  double energy = 0.;
-  for (const auto &term : contributions)
-    energy += term->energy(displacement);
-  return dealii::Utilities::MPI::sum(energy, mesh.communicator());
-}
-
-template <int dim>
-double
-CoupledProblem<dim>::ghost_force(
-  const std::function<bool(unsigned int)> &excluded) const
-{
-  const auto &nodal = mesh.nodal();
-  Vector      displacement, forces, reference;
-  partition().initialize(displacement);
-  partition().initialize(forces);
-  partition().initialize(reference);
-  double worst = 0.;
-  for (int a = 0; a < dim; ++a)
-    for (int b = a; b < dim; ++b)
+      *node_partition,
+      materials.laws,
+      forces ? std::vector<double>() : complement(region.alpha),
+      forces ? core_cells(nodal, region.alpha) : std::vector<bool>());
+    auto term = std::make_unique<CorrespondenceTerm<dim>>(std::move(set),
+                                                          *node_partition,
+                                                          materials.laws);
+    if (forces)
       {
-        dealii::Tensor<2, dim> strain;
-        strain[a][b] = strain[b][a] = a == b ? 1. : 0.5;
-        displacement.zero_out_ghost_values();
-        for (unsigned int n = 0; n < partition().n_owned(); ++n)
-          {
-            const auto value =
-              strain * dealii::Tensor<1, dim>(partition().position(n));
-            for (int d = 0; d < dim; ++d)
-              displacement.local_element(dim * n + d) = value[d];
-          }
-        displacement.update_ghost_values();
-        internal_forces(displacement, forces);
-        reference = 0.;
-        all_cells->add_residual(displacement, reference);
-        reference.compress(dealii::VectorOperation::add);
-
-        double stress = 0.;
-        for (const auto &law : materials.laws)
-          stress = std::max(
-            stress,
-            law
-              ->first_piola_kirchhoff(
-                dealii::Tensor<2, dim>(
-                  dealii::Physics::Elasticity::StandardTensors<dim>::I) +
-                1e-6 * strain)
-              .norm() *
-              1e6);
-        for (unsigned int n = 0; n < partition().n_owned(); ++n)
-          for (int d = 0; d < dim; ++d)
-            {
-              const unsigned int node = partition().global(n);
-              if (!excluded(dim * node + d))
-                worst = std::max(
-                  worst,
-                  std::abs(forces.local_element(dim * n + d) -
-                           reference.local_element(dim * n + d)) /
-                    (stress * std::pow(nodal.spacing[node], dim - 1)));
-            }
+        elements->set_row_weights(
+          local_weights(*node_partition, region.alpha, true));
+        term->set_row_weights(
+          local_weights(*node_partition, region.alpha, false));
       }
-  return dealii::Utilities::MPI::max(worst, mesh.communicator());
-}
+    families.push_back(term.get());
+    if (dealii::Utilities::MPI::max(elements->n_blocks(), mesh.communicator()) >
+        0)
+      contributions.push_back(std::move(elements));
+    contributions.push_back(std::move(term));
+  }
 
-template <int dim>
-typename CoupledProblem<dim>::Counts
-CoupledProblem<dim>::counts() const
-{
-  Counts     total;
-  const auto sum = [&](const std::size_t value) {
-    return static_cast<std::size_t>(
-      dealii::Utilities::MPI::sum(static_cast<unsigned long long>(value),
-                                  mesh.communicator()));
-  };
-  total.particles    = sum(local_counts.particles);
-  total.bonds        = sum(local_counts.bonds);
-  total.dropped      = sum(local_counts.dropped);
-  total.active_cells = sum(local_counts.active_cells);
-  return total;
-}
+  template <int dim>
+  void
+  CoupledProblem<dim>::make_bonds(const Mesh::RegionMap    &region,
+                                  const CouplingParameters &parameters,
+                                  const Progress           &progress)
+  {
+    const auto       &nodal      = mesh.nodal();
+    const bool        forces     = parameters.scheme == Scheme::force_blending;
+    const bool        consistent = parameters.scheme == Scheme::consistent;
+    BondCoupling<dim> coupling;
+    Base::collectively(mesh.communicator(), [&]() {
+      coupling = make_bond_coupling(nodal,
+                                    forces ? extended_weight(nodal, region)
+                                           : region.alpha,
+                                    region.horizon,
+                                    materials.bond_constants,
+                                    consistent,
+                                    progress);
+    });
+    local_counts.bonds   = coupling.bonds.nodes.size();
+    local_counts.dropped = coupling.bonds.n_dropped;
+    for (unsigned int n = nodal.owned_begin; n < nodal.owned_end; ++n)
+      local_counts.particles += region.alpha[n] > 0. ? 1 : 0;
 
-template class CoupledProblem<2>;
-template class CoupledProblem<3>;
+    std::vector<unsigned int> needed;
+    Fem::add_cell_nodes(nodal, needed);
+    add_bond_nodes(coupling.bonds, needed);
+    node_partition =
+      std::make_unique<Fem::NodePartition<dim>>(nodal,
+                                                needed,
+                                                mesh.communicator());
+    auto elements = std::make_unique<Fem::ElasticCells<dim>>(
+      nodal,
+      *node_partition,
+      materials.laws,
+      forces || consistent ? std::vector<double>() : complement(region.alpha),
+      forces ? core_cells(nodal, region.alpha) : std::vector<bool>());
+    auto term =
+      std::make_unique<BondTerm<dim>>(coupling.bonds, *node_partition);
+    if (forces)
+      {
+        elements->set_row_weights(
+          local_weights(*node_partition, region.alpha, true));
+        term->set_row_weights(
+          local_weights(*node_partition, region.alpha, false));
+      }
+    if (dealii::Utilities::MPI::max(elements->n_blocks(), mesh.communicator()) >
+        0)
+      contributions.push_back(std::move(elements));
+    contributions.push_back(std::move(term));
+    if (consistent)
+      contributions.push_back(
+        std::make_unique<SegmentTerm<dim>>(nodal, *node_partition, coupling));
+  }
+
+  template <int dim>
+  std::vector<const Fem::Contribution<dim> *>
+  CoupledProblem<dim>::terms() const
+  {
+    std::vector<const Term *> list;
+    for (const auto &term : contributions)
+      list.push_back(term.get());
+    return list;
+  }
+
+  template <int dim>
+  std::vector<const Fem::Contribution<dim> *>
+  CoupledProblem<dim>::family_terms() const
+  {
+    return families;
+  }
+
+  template <int dim>
+  std::vector<const Fem::Contribution<dim> *>
+  CoupledProblem<dim>::assembled_terms() const
+  {
+    std::vector<const Term *> list;
+    for (const auto &term : contributions)
+      if (std::find(families.begin(), families.end(), term.get()) ==
+          families.end())
+        list.push_back(term.get());
+    return list;
+  }
+
+  template <int dim>
+  bool
+  CoupledProblem<dim>::is_linear() const
+  {
+    return std::all_of(contributions.begin(),
+                       contributions.end(),
+                       [](const auto &term) { return term->is_linear(); });
+  }
+
+  template <int dim>
+  bool
+  CoupledProblem<dim>::is_symmetric() const
+  {
+    return std::all_of(contributions.begin(),
+                       contributions.end(),
+                       [](const auto &term) { return term->is_symmetric(); });
+  }
+
+  template <int dim>
+  void
+  CoupledProblem<dim>::internal_forces(const Vector &displacement,
+                                       Vector       &forces) const
+  {
+    forces.zero_out_ghost_values();
+    forces = 0.;
+    for (const auto &term : contributions)
+      term->add_residual(displacement, forces);
+    forces.compress(dealii::VectorOperation::add);
+  }
+
+  template <int dim>
+  double
+  CoupledProblem<dim>::strain_energy(const Vector &displacement) const
+  {
+    if (!is_symmetric())
+      {
+        // Blended equations have no energy; the work of the forces stands in.
+        Vector forces;
+        partition().initialize(forces);
+        internal_forces(displacement, forces);
+        return 0.5 * (forces * displacement);
+      }
+    double energy = 0.;
+    for (const auto &term : contributions)
+      energy += term->energy(displacement);
+    return dealii::Utilities::MPI::sum(energy, mesh.communicator());
+  }
+
+  template <int dim>
+  double
+  CoupledProblem<dim>::ghost_force(
+    const std::function<bool(unsigned int)> &excluded) const
+  {
+    const auto &nodal = mesh.nodal();
+    Vector      displacement, forces, reference;
+    partition().initialize(displacement);
+    partition().initialize(forces);
+    partition().initialize(reference);
+    double worst = 0.;
+    for (int a = 0; a < dim; ++a)
+      for (int b = a; b < dim; ++b)
+        {
+          dealii::Tensor<2, dim> strain;
+          strain[a][b] = strain[b][a] = a == b ? 1. : 0.5;
+          displacement.zero_out_ghost_values();
+          for (unsigned int n = 0; n < partition().n_owned(); ++n)
+            {
+              const auto value =
+                strain * dealii::Tensor<1, dim>(partition().position(n));
+              for (int d = 0; d < dim; ++d)
+                displacement.local_element(dim * n + d) = value[d];
+            }
+          displacement.update_ghost_values();
+          internal_forces(displacement, forces);
+          reference = 0.;
+          all_cells->add_residual(displacement, reference);
+          reference.compress(dealii::VectorOperation::add);
+
+          double stress = 0.;
+          for (const auto &law : materials.laws)
+            stress = std::max(
+              stress,
+              law->first_piola_kirchhoff(
+                   dealii::Tensor<2, dim>(
+                     dealii::Physics::Elasticity::StandardTensors<dim>::I) +
+                   1e-6 * strain)
+                  .norm() *
+                1e6);
+          for (unsigned int n = 0; n < partition().n_owned(); ++n)
+            for (int d = 0; d < dim; ++d)
+              {
+                const unsigned int node = partition().global(n);
+                if (!excluded(dim * node + d))
+                  worst = std::max(
+                    worst,
+                    std::abs(forces.local_element(dim * n + d) -
+                             reference.local_element(dim * n + d)) /
+                      (stress * std::pow(nodal.spacing[node], dim - 1)));
+              }
+        }
+    return dealii::Utilities::MPI::max(worst, mesh.communicator());
+  }
+
+  template <int dim>
+  typename CoupledProblem<dim>::Counts
+  CoupledProblem<dim>::counts() const
+  {
+    Counts     total;
+    const auto sum = [&](const std::size_t value) {
+      return static_cast<std::size_t>(
+        dealii::Utilities::MPI::sum(static_cast<unsigned long long>(value),
+                                    mesh.communicator()));
+    };
+    total.particles    = sum(local_counts.particles);
+    total.bonds        = sum(local_counts.bonds);
+    total.dropped      = sum(local_counts.dropped);
+    total.active_cells = sum(local_counts.active_cells);
+    return total;
+  }
+
+  template class CoupledProblem<2>;
+  template class CoupledProblem<3>;
 } // namespace Perimorph::Coupling

@@ -4,217 +4,213 @@
 
 namespace Perimorph::Fem
 {
-template <int dim>
-ElasticCells<dim>::ElasticCells(const Mesh::NodalMesh<dim> &mesh,
-                                const NodePartition<dim>   &partition,
-                                const MaterialList         &materials,
-                                const std::vector<double>  &element_weight,
-                                const std::vector<bool>    &skip)
-  : partition(partition)
-  , materials(materials)
-{
-  for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-    {
-      if (!mesh.owns_cell(c) || (!skip.empty() && skip[c]))
-        continue;
-      Cell cell;
-      cell.material   = mesh.cell_material[c];
-      bool has_weight = false;
-      for (unsigned int q = 0; q < n_nodes; ++q)
-        {
-          cell.weights[q] = element_weight.empty() ? 1. : 0.;
-          if (!element_weight.empty())
-            for (unsigned int v = 0; v < n_nodes; ++v)
-              cell.weights[q] += element_weight[mesh.cells[c][v]] *
-                                 Mesh::CellGeometry<dim>::shape_value(q, v);
-          has_weight = has_weight || cell.weights[q] != 0.;
-        }
-      if (!has_weight)
-        continue;
-      for (unsigned int v = 0; v < n_nodes; ++v)
-        cell.nodes[v] = partition.local(mesh.cells[c][v]);
-      cells.push_back(cell);
-    }
-}
+  template <int dim>
+  ElasticCells<dim>::ElasticCells(const Mesh::NodalMesh<dim> &mesh,
+                                  const NodePartition<dim>   &partition,
+                                  const MaterialList         &materials,
+                                  const std::vector<double>  &element_weight,
+                                  const std::vector<bool>    &skip)
+    : partition(partition)
+    , materials(materials)
+  {
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      {
+        if (!mesh.owns_cell(c) || (!skip.empty() && skip[c]))
+          continue;
+        Cell cell;
+        cell.material   = mesh.cell_material[c];
+        bool has_weight = false;
+        for (unsigned int q = 0; q < n_nodes; ++q)
+          {
+            cell.weights[q] = element_weight.empty() ? 1. : 0.;
+            if (!element_weight.empty())
+              for (unsigned int v = 0; v < n_nodes; ++v)
+                cell.weights[q] += element_weight[mesh.cells[c][v]] *
+                                   Mesh::CellGeometry<dim>::shape_value(q, v);
+            has_weight = has_weight || cell.weights[q] != 0.;
+          }
+        if (!has_weight)
+          continue;
+        for (unsigned int v = 0; v < n_nodes; ++v)
+          cell.nodes[v] = partition.local(mesh.cells[c][v]);
+        cells.push_back(cell);
+      }
+  }
 
-template <int dim>
-std::string
-ElasticCells<dim>::name() const
-{
-  return "finite elements";
-}
+  template <int dim>
+  std::string
+  ElasticCells<dim>::name() const
+  {
+    return "finite elements";
+  }
 
-template <int dim>
-bool
-ElasticCells<dim>::is_linear() const
-{
-  for (const auto &material : materials)
-    if (!material->is_linear())
-      return false;
-  return true;
-}
+  template <int dim>
+  bool
+  ElasticCells<dim>::is_linear() const
+  {
+    for (const auto &material : materials)
+      if (!material->is_linear())
+        return false;
+    return true;
+  }
 
-template <int dim>
-Mesh::CellGeometry<dim>
-ElasticCells<dim>::geometry(const Cell &cell) const
-{
-  typename Mesh::CellGeometry<dim>::Corners corners;
-  for (unsigned int v = 0; v < n_nodes; ++v)
-    corners[v] = partition.position(cell.nodes[v]);
-  return Mesh::CellGeometry<dim>(corners);
-}
+  template <int dim>
+  Mesh::CellGeometry<dim>
+  ElasticCells<dim>::geometry(const Cell &cell) const
+  {
+    typename Mesh::CellGeometry<dim>::Corners corners;
+    for (unsigned int v = 0; v < n_nodes; ++v)
+      corners[v] = partition.position(cell.nodes[v]);
+    return Mesh::CellGeometry<dim>(corners);
+  }
 
-template <int dim>
-dealii::Tensor<2, dim>
-ElasticCells<dim>::gradient(const Cell                    &cell,
-                            const Mesh::CellGeometry<dim> &geometry,
-                            const unsigned int             q,
-                            const double                  *vector) const
-{
-  dealii::Tensor<2, dim> result;
-  for (unsigned int v = 0; v < n_nodes; ++v)
-    result += outer_product(this->value_at(vector, cell.nodes[v]),
-                            geometry.gradients[q][v]);
-  return result;
-}
+  template <int dim>
+  dealii::Tensor<2, dim>
+  ElasticCells<dim>::gradient(const Cell                    &cell,
+                              const Mesh::CellGeometry<dim> &geometry,
+                              const unsigned int             q,
+                              const double                  *vector) const
+  {
+    dealii::Tensor<2, dim> result;
+    for (unsigned int v = 0; v < n_nodes; ++v)
+      result += outer_product(this->value_at(vector, cell.nodes[v]),
+                              geometry.gradients[q][v]);
+    return result;
+  }
 
-template <int dim>
-double
-ElasticCells<dim>::energy(const Vector &displacement) const
-{
-  const auto identity =
-    dealii::Physics::Elasticity::StandardTensors<dim>::I;
-  double sum = 0.;
-  for (const Cell &cell : cells)
-    {
-      const auto geometry = this->geometry(cell);
-      for (unsigned int q = 0; q < n_nodes; ++q)
-        sum += geometry.jxw[q] * cell.weights[q] *
-               materials[cell.material]->energy_density(
-                 identity + gradient(cell, geometry, q, displacement.begin()));
-    }
-  return sum;
-}
-
-template <int dim>
-void
-ElasticCells<dim>::add_residual(const Vector &displacement,
-                                Vector       &residual) const
-{
-  const auto identity =
-    dealii::Physics::Elasticity::StandardTensors<dim>::I;
-  for (const Cell &cell : cells)
-    {
-      const auto geometry = this->geometry(cell);
-      for (unsigned int q = 0; q < n_nodes; ++q)
-        {
-          const auto P =
+  template <int dim>
+  double
+  ElasticCells<dim>::energy(const Vector &displacement) const
+  {
+    const auto identity = dealii::Physics::Elasticity::StandardTensors<dim>::I;
+    double     sum      = 0.;
+    for (const Cell &cell : cells)
+      {
+        const auto geometry = this->geometry(cell);
+        for (unsigned int q = 0; q < n_nodes; ++q)
+          sum +=
             geometry.jxw[q] * cell.weights[q] *
-            materials[cell.material]->first_piola_kirchhoff(
+            materials[cell.material]->energy_density(
               identity + gradient(cell, geometry, q, displacement.begin()));
-          for (unsigned int v = 0; v < n_nodes; ++v)
-            this->add_at(residual.begin(),
-                         cell.nodes[v],
-                         P * geometry.gradients[q][v]);
-        }
-    }
-}
+      }
+    return sum;
+  }
 
-template <int dim>
-void
-ElasticCells<dim>::add_tangent_product(const Vector &displacement,
-                                       const Vector &direction,
-                                       Vector       &product) const
-{
-  const auto identity =
-    dealii::Physics::Elasticity::StandardTensors<dim>::I;
-  for (const Cell &cell : cells)
-    {
-      const auto geometry = this->geometry(cell);
-      for (unsigned int q = 0; q < n_nodes; ++q)
-        {
-          const auto A = materials[cell.material]->tangent(
+  template <int dim>
+  void
+  ElasticCells<dim>::add_residual(const Vector &displacement,
+                                  Vector       &residual) const
+  {
+    const auto identity = dealii::Physics::Elasticity::StandardTensors<dim>::I;
+    for (const Cell &cell : cells)
+      {
+        const auto geometry = this->geometry(cell);
+        for (unsigned int q = 0; q < n_nodes; ++q)
+          {
+            const auto P =
+              geometry.jxw[q] * cell.weights[q] *
+              materials[cell.material]->first_piola_kirchhoff(
+                identity + gradient(cell, geometry, q, displacement.begin()));
+            for (unsigned int v = 0; v < n_nodes; ++v)
+              this->add_at(residual.begin(),
+                           cell.nodes[v],
+                           P * geometry.gradients[q][v]);
+          }
+      }
+  }
+
+  template <int dim>
+  void
+  ElasticCells<dim>::add_tangent_product(const Vector &displacement,
+                                         const Vector &direction,
+                                         Vector       &product) const
+  {
+    const auto identity = dealii::Physics::Elasticity::StandardTensors<dim>::I;
+    for (const Cell &cell : cells)
+      {
+        const auto geometry = this->geometry(cell);
+        for (unsigned int q = 0; q < n_nodes; ++q)
+          {
+            const auto A = materials[cell.material]->tangent(
+              identity + gradient(cell, geometry, q, displacement.begin()));
+            const auto dP = geometry.jxw[q] * cell.weights[q] *
+                            dealii::double_contract<2, 0, 3, 1>(
+                              A,
+                              gradient(cell, geometry, q, direction.begin()));
+            for (unsigned int v = 0; v < n_nodes; ++v)
+              this->add_at(product.begin(),
+                           cell.nodes[v],
+                           dP * geometry.gradients[q][v]);
+          }
+      }
+  }
+
+  template <int dim>
+  unsigned int
+  ElasticCells<dim>::n_blocks() const
+  {
+    return cells.size();
+  }
+
+  template <int dim>
+  void
+  ElasticCells<dim>::block_nodes(const unsigned int         block,
+                                 std::vector<unsigned int> &nodes) const
+  {
+    nodes.assign(cells[block].nodes.begin(), cells[block].nodes.end());
+  }
+
+  template <int dim>
+  void
+  ElasticCells<dim>::block_tangent(const unsigned int          block,
+                                   const Vector               &displacement,
+                                   dealii::FullMatrix<double> &matrix) const
+  {
+    const auto  identity = dealii::Physics::Elasticity::StandardTensors<dim>::I;
+    const Cell &cell     = cells[block];
+    const auto  geometry = this->geometry(cell);
+    matrix.reinit(dim * n_nodes, dim * n_nodes);
+    for (unsigned int q = 0; q < n_nodes; ++q)
+      {
+        const auto A =
+          geometry.jxw[q] * cell.weights[q] *
+          materials[cell.material]->tangent(
             identity + gradient(cell, geometry, q, displacement.begin()));
-          const auto dP =
-            geometry.jxw[q] * cell.weights[q] *
-            dealii::double_contract<2, 0, 3, 1>(
-              A, gradient(cell, geometry, q, direction.begin()));
-          for (unsigned int v = 0; v < n_nodes; ++v)
-            this->add_at(product.begin(),
-                         cell.nodes[v],
-                         dP * geometry.gradients[q][v]);
-        }
-    }
-}
-
-template <int dim>
-unsigned int
-ElasticCells<dim>::n_blocks() const
-{
-  return cells.size();
-}
-
-template <int dim>
-void
-ElasticCells<dim>::block_nodes(const unsigned int         block,
-                               std::vector<unsigned int> &nodes) const
-{
-  nodes.assign(cells[block].nodes.begin(), cells[block].nodes.end());
-}
-
-template <int dim>
-void
-ElasticCells<dim>::block_tangent(const unsigned int          block,
-                                 const Vector               &displacement,
-                                 dealii::FullMatrix<double> &matrix) const
-{
-  const auto identity =
-    dealii::Physics::Elasticity::StandardTensors<dim>::I;
-  const Cell &cell     = cells[block];
-  const auto  geometry = this->geometry(cell);
-  matrix.reinit(dim * n_nodes, dim * n_nodes);
-  for (unsigned int q = 0; q < n_nodes; ++q)
-    {
-      const auto A =
-        geometry.jxw[q] * cell.weights[q] *
-        materials[cell.material]->tangent(
-          identity + gradient(cell, geometry, q, displacement.begin()));
-      for (unsigned int w = 0; w < n_nodes; ++w)
-        {
-          // A contracted with one gradient serves all rows.
-          dealii::Tensor<3, dim> A_gradient;
-          for (int i = 0; i < dim; ++i)
-            for (int j = 0; j < dim; ++j)
-              for (int k = 0; k < dim; ++k)
-                A_gradient[i][j][k] =
-                  A[i][j][k] * geometry.gradients[q][w];
-          for (unsigned int v = 0; v < n_nodes; ++v)
+        for (unsigned int w = 0; w < n_nodes; ++w)
+          {
+            // A contracted with one gradient serves all rows.
+            dealii::Tensor<3, dim> A_gradient;
             for (int i = 0; i < dim; ++i)
-              for (int k = 0; k < dim; ++k)
-                {
-                  double sum = 0.;
-                  for (int j = 0; j < dim; ++j)
-                    sum += geometry.gradients[q][v][j] * A_gradient[i][j][k];
-                  matrix(dim * v + i, dim * w + k) += sum;
-                }
-        }
-    }
-}
+              for (int j = 0; j < dim; ++j)
+                for (int k = 0; k < dim; ++k)
+                  A_gradient[i][j][k] = A[i][j][k] * geometry.gradients[q][w];
+            for (unsigned int v = 0; v < n_nodes; ++v)
+              for (int i = 0; i < dim; ++i)
+                for (int k = 0; k < dim; ++k)
+                  {
+                    double sum = 0.;
+                    for (int j = 0; j < dim; ++j)
+                      sum += geometry.gradients[q][v][j] * A_gradient[i][j][k];
+                    matrix(dim * v + i, dim * w + k) += sum;
+                  }
+          }
+      }
+  }
 
-template <int dim>
-void
-add_cell_nodes(const Mesh::NodalMesh<dim> &mesh,
-               std::vector<unsigned int>  &needed)
-{
-  for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-    if (mesh.owns_cell(c))
-      needed.insert(needed.end(), mesh.cells[c].begin(), mesh.cells[c].end());
-}
+  template <int dim>
+  void
+  add_cell_nodes(const Mesh::NodalMesh<dim> &mesh,
+                 std::vector<unsigned int>  &needed)
+  {
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      if (mesh.owns_cell(c))
+        needed.insert(needed.end(), mesh.cells[c].begin(), mesh.cells[c].end());
+  }
 
-template class ElasticCells<2>;
-template class ElasticCells<3>;
-template void
-add_cell_nodes<2>(const Mesh::NodalMesh<2> &, std::vector<unsigned int> &);
-template void
-add_cell_nodes<3>(const Mesh::NodalMesh<3> &, std::vector<unsigned int> &);
+  template class ElasticCells<2>;
+  template class ElasticCells<3>;
+  template void
+  add_cell_nodes<2>(const Mesh::NodalMesh<2> &, std::vector<unsigned int> &);
+  template void
+  add_cell_nodes<3>(const Mesh::NodalMesh<3> &, std::vector<unsigned int> &);
 } // namespace Perimorph::Fem

@@ -8,193 +8,194 @@
 
 namespace Perimorph::Fem
 {
-namespace
-{
-template <int dim>
-constexpr unsigned int n_modes = dim * (dim + 1) / 2;
+  namespace
+  {
+    template <int dim>
+    constexpr unsigned int n_modes = dim *(dim + 1) / 2;
 
-/// Unit translations, then rotations in the planes (a, b) scaled by 1 / size.
-template <int dim>
-std::vector<FreeMotion<dim>>
-all_motions(const unsigned int        piece,
-            const dealii::Point<dim> &center,
-            const double              size)
-{
-  std::vector<FreeMotion<dim>> motions;
-  for (int d = 0; d < dim; ++d)
+    /// Unit translations, then rotations in the planes (a, b) scaled by 1 /
+    /// size.
+    template <int dim>
+    std::vector<FreeMotion<dim>>
+    all_motions(const unsigned int        piece,
+                const dealii::Point<dim> &center,
+                const double              size)
     {
-      FreeMotion<dim> motion;
-      motion.piece          = piece;
-      motion.center         = center;
-      motion.translation[d] = 1.;
-      motions.push_back(motion);
-    }
-  for (int a = 0; a < dim; ++a)
-    for (int b = a + 1; b < dim; ++b)
-      {
-        FreeMotion<dim> motion;
-        motion.piece          = piece;
-        motion.center         = center;
-        motion.rotation[a][b] = -1. / size;
-        motion.rotation[b][a] = 1. / size;
-        motions.push_back(motion);
-      }
-  return motions;
-}
-
-template <int dim>
-FreeMotion<dim>
-combine(const std::vector<FreeMotion<dim>> &motions,
-        const Eigen::VectorXd              &coefficients)
-{
-  FreeMotion<dim> sum;
-  sum.piece  = motions[0].piece;
-  sum.center = motions[0].center;
-  for (unsigned int k = 0; k < motions.size(); ++k)
-    {
-      sum.translation += coefficients[k] * motions[k].translation;
-      sum.rotation += coefficients[k] * motions[k].rotation;
-    }
-  return sum;
-}
-} // namespace
-
-template <int dim>
-std::string
-FreeMotion<dim>::description() const
-{
-  std::ostringstream text;
-  if (translation.norm() > 1e-6)
-    {
-      text << "translation along (";
+      std::vector<FreeMotion<dim>> motions;
       for (int d = 0; d < dim; ++d)
-        text << (d > 0 ? ", " : "")
-             << std::round(1e3 * translation[d] / translation.norm()) / 1e3 +
-                  0.;
-      text << ")";
-    }
-  if (rotation.norm() > 1e-6 * (translation.norm() + rotation.norm()))
-    text << (text.str().empty() ? "rotation" : " with rotation");
-  return text.str();
-}
-
-template <int dim>
-std::vector<FreeMotion<dim>>
-free_motions(const Mesh::DistributedMesh<dim> &mesh,
-             const Supports<dim>              &supports)
-{
-  const auto        &nodal  = mesh.nodal();
-  const auto        &pieces = mesh.pieces();
-  const unsigned int n_pieces =
-    1 + *std::max_element(pieces.begin(), pieces.end());
-  std::vector<dealii::Point<dim>> center(n_pieces);
-  std::vector<unsigned int>       count(n_pieces, 0);
-  std::vector<double>             size(n_pieces, 0.);
-  for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
-    {
-      center[pieces[n]] += nodal.nodes[n];
-      ++count[pieces[n]];
-    }
-  for (unsigned int p = 0; p < n_pieces; ++p)
-    center[p] /= count[p];
-  for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
-    size[pieces[n]] =
-      std::max(size[pieces[n]], nodal.nodes[n].distance(center[pieces[n]]));
-
-  // Gram matrix of the motions at the supported degrees of freedom: its null
-  // space is what the supports leave free.
-  std::vector<std::vector<FreeMotion<dim>>> motions;
-  std::vector<Eigen::MatrixXd>              gram;
-  for (unsigned int p = 0; p < n_pieces; ++p)
-    {
-      motions.push_back(all_motions(p, center[p], size[p]));
-      gram.push_back(Eigen::MatrixXd::Zero(n_modes<dim>, n_modes<dim>));
-    }
-  for (const auto &entry : supports.entries())
-    {
-      const unsigned int node  = entry.first / dim;
-      const unsigned int piece = pieces[node];
-      Eigen::VectorXd    row(n_modes<dim>);
-      for (unsigned int k = 0; k < n_modes<dim>; ++k)
-        row[k] = motions[piece][k].at(nodal.nodes[node])[entry.first % dim];
-      gram[piece] += row * row.transpose();
-    }
-  std::vector<FreeMotion<dim>> result;
-  for (unsigned int p = 0; p < n_pieces; ++p)
-    {
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram[p]);
-      for (unsigned int k = 0; k < n_modes<dim>; ++k)
-        if (solver.eigenvalues()[k] < 1e-10)
-          result.push_back(combine(motions[p], solver.eigenvectors().col(k)));
-    }
-  return result;
-}
-
-template <int dim>
-std::vector<unsigned int>
-pins_against(const Mesh::DistributedMesh<dim>   &mesh,
-             const std::vector<FreeMotion<dim>> &motions)
-{
-  const auto               &nodal  = mesh.nodal();
-  const auto               &pieces = mesh.pieces();
-  auto                      free   = motions;
-  std::vector<unsigned int> pins;
-  while (!free.empty())
-    {
-      // Pin where one free motion moves most. Values within round-off count
-      // as equal and are decided by position, so that the choice does not
-      // depend on the node numbering.
-      const auto   motion = free.back();
-      double       best   = 0.;
-      unsigned int pin    = 0;
-      for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
-        if (pieces[n] == motion.piece)
-          for (int d = 0; d < dim; ++d)
-            {
-              const double value = std::abs(motion.at(nodal.nodes[n])[d]);
-              bool         better = value > best * (1. + 1e-8);
-              if (!better && value > best * (1. - 1e-8))
-                {
-                  const auto &x = nodal.nodes[n];
-                  const auto &y = nodal.nodes[pin / dim];
-                  int         k = 0;
-                  while (k < dim && std::abs(x[k] - y[k]) <
-                                      1e-8 * nodal.spacing[n])
-                    ++k;
-                  better = k < dim && x[k] < y[k];
-                }
-              if (better)
-                {
-                  best = value;
-                  pin  = dim * n + d;
-                }
-            }
-      pins.push_back(pin);
-      // Remaining motions are combined so that they vanish at the pin.
-      free.pop_back();
-      const auto   &x       = nodal.nodes[pin / dim];
-      const double  divisor = motion.at(x)[pin % dim];
-      for (auto &other : free)
-        if (other.piece == motion.piece)
+        {
+          FreeMotion<dim> motion;
+          motion.piece          = piece;
+          motion.center         = center;
+          motion.translation[d] = 1.;
+          motions.push_back(motion);
+        }
+      for (int a = 0; a < dim; ++a)
+        for (int b = a + 1; b < dim; ++b)
           {
-            const double factor = other.at(x)[pin % dim] / divisor;
-            other.translation -= factor * motion.translation;
-            other.rotation -= factor * motion.rotation;
+            FreeMotion<dim> motion;
+            motion.piece          = piece;
+            motion.center         = center;
+            motion.rotation[a][b] = -1. / size;
+            motion.rotation[b][a] = 1. / size;
+            motions.push_back(motion);
           }
+      return motions;
     }
-  return pins;
-}
 
-template struct FreeMotion<2>;
-template struct FreeMotion<3>;
-template std::vector<FreeMotion<2>>
-free_motions<2>(const Mesh::DistributedMesh<2> &, const Supports<2> &);
-template std::vector<FreeMotion<3>>
-free_motions<3>(const Mesh::DistributedMesh<3> &, const Supports<3> &);
-template std::vector<unsigned int>
-pins_against<2>(const Mesh::DistributedMesh<2> &,
-                const std::vector<FreeMotion<2>> &);
-template std::vector<unsigned int>
-pins_against<3>(const Mesh::DistributedMesh<3> &,
-                const std::vector<FreeMotion<3>> &);
+    template <int dim>
+    FreeMotion<dim>
+    combine(const std::vector<FreeMotion<dim>> &motions,
+            const Eigen::VectorXd              &coefficients)
+    {
+      FreeMotion<dim> sum;
+      sum.piece  = motions[0].piece;
+      sum.center = motions[0].center;
+      for (unsigned int k = 0; k < motions.size(); ++k)
+        {
+          sum.translation += coefficients[k] * motions[k].translation;
+          sum.rotation += coefficients[k] * motions[k].rotation;
+        }
+      return sum;
+    }
+  } // namespace
+
+  template <int dim>
+  std::string
+  FreeMotion<dim>::description() const
+  {
+    std::ostringstream text;
+    if (translation.norm() > 1e-6)
+      {
+        text << "translation along (";
+        for (int d = 0; d < dim; ++d)
+          text << (d > 0 ? ", " : "")
+               << std::round(1e3 * translation[d] / translation.norm()) / 1e3 +
+                    0.;
+        text << ")";
+      }
+    if (rotation.norm() > 1e-6 * (translation.norm() + rotation.norm()))
+      text << (text.str().empty() ? "rotation" : " with rotation");
+    return text.str();
+  }
+
+  template <int dim>
+  std::vector<FreeMotion<dim>>
+  free_motions(const Mesh::DistributedMesh<dim> &mesh,
+               const Supports<dim>              &supports)
+  {
+    const auto        &nodal  = mesh.nodal();
+    const auto        &pieces = mesh.pieces();
+    const unsigned int n_pieces =
+      1 + *std::max_element(pieces.begin(), pieces.end());
+    std::vector<dealii::Point<dim>> center(n_pieces);
+    std::vector<unsigned int>       count(n_pieces, 0);
+    std::vector<double>             size(n_pieces, 0.);
+    for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
+      {
+        center[pieces[n]] += nodal.nodes[n];
+        ++count[pieces[n]];
+      }
+    for (unsigned int p = 0; p < n_pieces; ++p)
+      center[p] /= count[p];
+    for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
+      size[pieces[n]] =
+        std::max(size[pieces[n]], nodal.nodes[n].distance(center[pieces[n]]));
+
+    // Gram matrix of the motions at the supported degrees of freedom: its null
+    // space is what the supports leave free.
+    std::vector<std::vector<FreeMotion<dim>>> motions;
+    std::vector<Eigen::MatrixXd>              gram;
+    for (unsigned int p = 0; p < n_pieces; ++p)
+      {
+        motions.push_back(all_motions(p, center[p], size[p]));
+        gram.push_back(Eigen::MatrixXd::Zero(n_modes<dim>, n_modes<dim>));
+      }
+    for (const auto &entry : supports.entries())
+      {
+        const unsigned int node  = entry.first / dim;
+        const unsigned int piece = pieces[node];
+        Eigen::VectorXd    row(n_modes<dim>);
+        for (unsigned int k = 0; k < n_modes<dim>; ++k)
+          row[k] = motions[piece][k].at(nodal.nodes[node])[entry.first % dim];
+        gram[piece] += row * row.transpose();
+      }
+    std::vector<FreeMotion<dim>> result;
+    for (unsigned int p = 0; p < n_pieces; ++p)
+      {
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram[p]);
+        for (unsigned int k = 0; k < n_modes<dim>; ++k)
+          if (solver.eigenvalues()[k] < 1e-10)
+            result.push_back(combine(motions[p], solver.eigenvectors().col(k)));
+      }
+    return result;
+  }
+
+  template <int dim>
+  std::vector<unsigned int>
+  pins_against(const Mesh::DistributedMesh<dim>   &mesh,
+               const std::vector<FreeMotion<dim>> &motions)
+  {
+    const auto               &nodal  = mesh.nodal();
+    const auto               &pieces = mesh.pieces();
+    auto                      free   = motions;
+    std::vector<unsigned int> pins;
+    while (!free.empty())
+      {
+        // Pin where one free motion moves most. Values within round-off count
+        // as equal and are decided by position, so that the choice does not
+        // depend on the node numbering.
+        const auto   motion = free.back();
+        double       best   = 0.;
+        unsigned int pin    = 0;
+        for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
+          if (pieces[n] == motion.piece)
+            for (int d = 0; d < dim; ++d)
+              {
+                const double value  = std::abs(motion.at(nodal.nodes[n])[d]);
+                bool         better = value > best * (1. + 1e-8);
+                if (!better && value > best * (1. - 1e-8))
+                  {
+                    const auto &x = nodal.nodes[n];
+                    const auto &y = nodal.nodes[pin / dim];
+                    int         k = 0;
+                    while (k < dim &&
+                           std::abs(x[k] - y[k]) < 1e-8 * nodal.spacing[n])
+                      ++k;
+                    better = k < dim && x[k] < y[k];
+                  }
+                if (better)
+                  {
+                    best = value;
+                    pin  = dim * n + d;
+                  }
+              }
+        pins.push_back(pin);
+        // Remaining motions are combined so that they vanish at the pin.
+        free.pop_back();
+        const auto  &x       = nodal.nodes[pin / dim];
+        const double divisor = motion.at(x)[pin % dim];
+        for (auto &other : free)
+          if (other.piece == motion.piece)
+            {
+              const double factor = other.at(x)[pin % dim] / divisor;
+              other.translation -= factor * motion.translation;
+              other.rotation -= factor * motion.rotation;
+            }
+      }
+    return pins;
+  }
+
+  template struct FreeMotion<2>;
+  template struct FreeMotion<3>;
+  template std::vector<FreeMotion<2>>
+  free_motions<2>(const Mesh::DistributedMesh<2> &, const Supports<2> &);
+  template std::vector<FreeMotion<3>>
+  free_motions<3>(const Mesh::DistributedMesh<3> &, const Supports<3> &);
+  template std::vector<unsigned int>
+  pins_against<2>(const Mesh::DistributedMesh<2> &,
+                  const std::vector<FreeMotion<2>> &);
+  template std::vector<unsigned int>
+  pins_against<3>(const Mesh::DistributedMesh<3> &,
+                  const std::vector<FreeMotion<3>> &);
 } // namespace Perimorph::Fem

@@ -4,99 +4,100 @@
 
 namespace Perimorph
 {
-namespace Materials
-{
-namespace
-{
-template <int dim>
-dealii::SymmetricTensor<2, dim>
-small_strain(const dealii::Tensor<2, dim> &F)
-{
-  return symmetrize(F) - dealii::unit_symmetric_tensor<dim>();
-}
-} // namespace
-
-template <int dim>
-LinearElastic<dim>::LinearElastic(const double     youngs_modulus,
-                                  const double     poissons_ratio,
-                                  const PlaneState state)
-  : state(state)
-  , lame_lambda(youngs_modulus * poissons_ratio /
-                ((1. + poissons_ratio) * (1. - 2. * poissons_ratio)))
-  , lame_mu(youngs_modulus / (2. * (1. + poissons_ratio)))
-{
-  if (state == PlaneState::plane_stress)
-    lame_lambda = youngs_modulus * poissons_ratio /
-                  (1. - poissons_ratio * poissons_ratio);
-}
-
-template <int dim>
-std::string
-LinearElastic<dim>::name() const
-{
-  return "linear elastic";
-}
-
-template <int dim>
-bool
-LinearElastic<dim>::is_linear() const
-{
-  return true;
-}
-
-template <int dim>
-double
-LinearElastic<dim>::energy_density(const dealii::Tensor<2, dim> &F) const
-{
-  const auto   strain = small_strain(F);
-  const double dilatation = trace(strain);
-  return 0.5 * lame_lambda * dilatation * dilatation +
-         lame_mu * (strain * strain);
-}
-
-template <int dim>
-dealii::Tensor<2, dim>
-LinearElastic<dim>::first_piola_kirchhoff(
-  const dealii::Tensor<2, dim> &F) const
-{
-  const auto strain = small_strain(F);
-  return lame_lambda * trace(strain) * dealii::unit_symmetric_tensor<dim>() +
-         2. * lame_mu * strain;
-}
-
-template <int dim>
-dealii::Tensor<4, dim>
-LinearElastic<dim>::tangent(const dealii::Tensor<2, dim> &) const
-{
-  dealii::Tensor<4, dim> A;
-  for (int i = 0; i < dim; ++i)
-    for (int j = 0; j < dim; ++j)
+  namespace Materials
+  {
+    namespace
+    {
+      template <int dim>
+      dealii::SymmetricTensor<2, dim>
+      small_strain(const dealii::Tensor<2, dim> &F)
       {
-        A[i][i][j][j] += lame_lambda;
-        A[i][j][i][j] += lame_mu;
-        A[i][j][j][i] += lame_mu;
+        return symmetrize(F) - dealii::unit_symmetric_tensor<dim>();
       }
-  return A;
-}
+    } // namespace
 
-template <int dim>
-double
-LinearElastic<dim>::out_of_plane_stress(
-  const dealii::Tensor<2, dim> &F) const
-{
-  return state == PlaneState::plane_strain ?
-           lame_lambda * trace(small_strain(F)) :
-           0.;
-}
+    template <int dim>
+    LinearElastic<dim>::LinearElastic(const double     youngs_modulus,
+                                      const double     poissons_ratio,
+                                      const PlaneState state)
+      : state(state)
+      , lame_lambda(youngs_modulus * poissons_ratio /
+                    ((1. + poissons_ratio) * (1. - 2. * poissons_ratio)))
+      , lame_mu(youngs_modulus / (2. * (1. + poissons_ratio)))
+    {
+      if (state == PlaneState::plane_stress)
+        lame_lambda = youngs_modulus * poissons_ratio /
+                      (1. - poissons_ratio * poissons_ratio);
+    }
 
-template <int dim>
-double
-LinearElastic<dim>::shear_modulus() const
-{
-  return lame_mu;
-}
+    template <int dim>
+    std::string
+    LinearElastic<dim>::name() const
+    {
+      return "linear elastic";
+    }
 
-template class LinearElastic<2>;
-template class LinearElastic<3>;
-} // namespace Materials
+    template <int dim>
+    bool
+    LinearElastic<dim>::is_linear() const
+    {
+      return true;
+    }
+
+    template <int dim>
+    double
+    LinearElastic<dim>::energy_density(const dealii::Tensor<2, dim> &F) const
+    {
+      const auto   strain     = small_strain(F);
+      const double dilatation = trace(strain);
+      return 0.5 * lame_lambda * dilatation * dilatation +
+             lame_mu * (strain * strain);
+    }
+
+    template <int dim>
+    dealii::Tensor<2, dim>
+    LinearElastic<dim>::first_piola_kirchhoff(
+      const dealii::Tensor<2, dim> &F) const
+    {
+      const auto strain = small_strain(F);
+      return lame_lambda * trace(strain) *
+               dealii::unit_symmetric_tensor<dim>() +
+             2. * lame_mu * strain;
+    }
+
+    template <int dim>
+    dealii::Tensor<4, dim>
+    LinearElastic<dim>::tangent(const dealii::Tensor<2, dim> &) const
+    {
+      dealii::Tensor<4, dim> A;
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j)
+          {
+            A[i][i][j][j] += lame_lambda;
+            A[i][j][i][j] += lame_mu;
+            A[i][j][j][i] += lame_mu;
+          }
+      return A;
+    }
+
+    template <int dim>
+    double
+    LinearElastic<dim>::out_of_plane_stress(
+      const dealii::Tensor<2, dim> &F) const
+    {
+      return state == PlaneState::plane_strain
+               ? lame_lambda * trace(small_strain(F))
+               : 0.;
+    }
+
+    template <int dim>
+    double
+    LinearElastic<dim>::shear_modulus() const
+    {
+      return lame_mu;
+    }
+
+    template class LinearElastic<2>;
+    template class LinearElastic<3>;
+  } // namespace Materials
 } // namespace Perimorph

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -242,6 +243,30 @@ namespace Perimorph::Output
   }
 
 
+  std::optional<double>
+  Results::companion_difference(const std::string &name) const
+  {
+    const auto is_named = [&name](const auto &entry) {
+      return entry.first == name;
+    };
+    const auto own =
+      std::find_if(quantities.begin(), quantities.end(), is_named);
+    const auto other =
+      std::find_if(companion.begin(), companion.end(), is_named);
+    if (own == quantities.end() || other == companion.end())
+      return std::nullopt;
+    double largest = 0.;
+    for (const auto *list : {&quantities, &companion})
+      for (const auto &entry : *list)
+        if (entry.second.unit == other->second.unit)
+          largest = std::max(largest, std::abs(entry.second.value));
+    const double reference = std::abs(other->second.value);
+    if (!(reference > 1e-9 * largest))
+      return std::nullopt;
+    return (own->second.value - other->second.value) / reference;
+  }
+
+
   std::map<std::string, double>
   Results::companion_quantities() const
   {
@@ -388,9 +413,9 @@ namespace Perimorph::Output
       json[name] = section;
     for (const auto &[name, entry] : companion)
       {
-        std::optional<double> difference;
-        if (has(name))
-          difference = Quantity{value(name), "", entry.value}.relative_error();
+        auto difference = companion_difference(name);
+        if (difference)
+          difference = std::abs(*difference);
         json["companion"]["quantities"][name] = {
           {"value", entry.value},
           {"unit", entry.unit},

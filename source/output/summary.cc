@@ -7,6 +7,7 @@
 #include <cstdarg>
 #include <cstdio>
 #include <map>
+#include <optional>
 
 namespace Perimorph::Output
 {
@@ -86,21 +87,26 @@ namespace Perimorph::Output
                            static_cast<int>(unit_width),
                            quantity.unit.c_str());
           // a difference in percent makes no sense against zero
-          const auto compare = [&line, &quantity](const double other) {
-            line += format(
-              " %13.6g %10s",
-              other,
-              other == 0.
-                ? "-"
-                : percent((quantity.value - other) / std::abs(other)).c_str());
+          const auto compare = [&line](const double                other,
+                                       const std::optional<double> difference) {
+            line += format(" %13.6g %10s",
+                           other,
+                           difference ? percent(*difference).c_str() : "-");
           };
           if (quantity.reference)
-            compare(*quantity.reference);
+            {
+              const double other = *quantity.reference;
+              compare(other,
+                      other == 0.
+                        ? std::nullopt
+                        : std::optional<double>((quantity.value - other) /
+                                                std::abs(other)));
+            }
           else if (references)
             line += std::string(25, ' ');
           const auto entry = companion.find(name);
           if (entry != companion.end())
-            compare(entry->second);
+            compare(entry->second, results.companion_difference(name));
           line.erase(line.find_last_not_of(' ') + 1);
           log << line << '\n';
         }

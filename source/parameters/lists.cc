@@ -196,11 +196,11 @@ namespace Perimorph::Parameters
           continue;
         for (const auto &component : components)
           if (!given.emplace(name, component.first).second)
-            errors.add_parameter(path,
-                                 "component " + in_quotes(component.first) +
-                                   (name.empty() ? "" : " of " + in_quotes(name)) +
-                                   " twice",
-                                 "each component once");
+            errors.add_parameter(
+              path,
+              "component " + in_quotes(component.first) +
+                (name.empty() ? "" : " of " + in_quotes(name)) + " twice",
+              "each component once");
         list.push_back({name, components});
       }
     return list;
@@ -225,7 +225,9 @@ namespace Perimorph::Parameters
                                in_quotes(entry),
                                "NAME: value; NAME: value; ...");
         else if (!names.insert(name).second)
-          errors.add_parameter(path, in_quotes(name) + " twice", "each name once");
+          errors.add_parameter(path,
+                               in_quotes(name) + " twice",
+                               "each name once");
         else
           list.push_back({name, value});
       }
@@ -249,7 +251,9 @@ namespace Perimorph::Parameters
                                  : in_quotes(name),
                                "names separated by ','");
         else if (std::find(names.begin(), names.end(), name) != names.end())
-          errors.add_parameter(path, in_quotes(name) + " twice", "each name once");
+          errors.add_parameter(path,
+                               in_quotes(name) + " twice",
+                               "each name once");
         else
           names.push_back(name);
       }
@@ -313,7 +317,9 @@ namespace Perimorph::Parameters
                                in_quotes(value) + " for " + in_quotes(name),
                                "a number");
         else if (!names.insert(name).second)
-          errors.add_parameter(path, in_quotes(name) + " twice", "each name once");
+          errors.add_parameter(path,
+                               in_quotes(name) + " twice",
+                               "each name once");
         else
           list.emplace_back(name, *number);
       }
@@ -331,9 +337,9 @@ namespace Perimorph::Parameters
     std::string inside = trim(text);
     if (inside.size() >= 2 && inside.front() == '(' && inside.back() == ')')
       inside = inside.substr(1, inside.size() - 2);
-    const std::string place = entry == text
-                                ? in_quotes(entry)
-                                : in_quotes(trim(text)) + " in " + in_quotes(entry);
+    const std::string place =
+      entry == text ? in_quotes(entry)
+                    : in_quotes(trim(text)) + " in " + in_quotes(entry);
 
     std::vector<double> point;
     for (const std::string &word : split_words(inside, " \t,"))

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <sstream>
 #include <utility>
 
 namespace Perimorph::Parameters
@@ -75,10 +76,6 @@ namespace Perimorph::Parameters
         statement_line = line_number;
         for (const OpenSection &section : open_sections)
           add_missing_end(section, "before the end of the file");
-        if (n_set == 0)
-          errors.add("parameter file " + file_name +
-                     "\n  found no 'set' in it; allowed: lines "
-                     "'set NAME = VALUE' in 'subsection NAME' ... 'end'");
       }
 
     private:
@@ -126,8 +123,6 @@ namespace Perimorph::Parameters
           {
             const bool is_assignment =
               word != "end" && statement.find('=') != std::string::npos;
-            if (is_assignment)
-              ++n_set;
             errors.add(Base::InputMessage{
               "line " + place(),
               "'" + statement + "'",
@@ -192,7 +187,6 @@ namespace Perimorph::Parameters
       void
       set(const std::string &assignment)
       {
-        ++n_set;
         const std::size_t equals = assignment.find('=');
         const std::string name = condense_blanks(assignment.substr(0, equals));
         if (equals == std::string::npos || name.empty())
@@ -261,8 +255,25 @@ namespace Perimorph::Parameters
       std::vector<OpenSection>            open_sections;
       std::map<std::string, unsigned int> lines_of_entries;
       unsigned int                        statement_line = 0;
-      unsigned int                        n_set          = 0;
     };
+
+
+    /// True if a line has a '=' or begins with 'set': without, it is no
+    /// parameter file, and a message per line would not help.
+    bool
+    has_assignment(const std::string &text)
+    {
+      std::istringstream stream(text);
+      for (std::string line; std::getline(stream, line);)
+        {
+          line                   = trim(line.substr(0, line.find('#')));
+          const std::string word = split_first_word(line).first;
+          if (word == "set" || word == "SET" ||
+              line.find('=') != std::string::npos)
+            return true;
+        }
+      return false;
+    }
 
 
     /// Names of the parameter files beside a file which does not exist.
@@ -282,23 +293,33 @@ namespace Perimorph::Parameters
   } // namespace
 
 
-  void
+  bool
   read_text(const std::string         &text,
             const std::string         &file_name,
             dealii::ParameterHandler  &prm,
             Base::InputErrorCollector &errors)
   {
     if (text.find('\0') != std::string::npos)
-      errors.add(Base::InputMessage{"parameter file " + file_name,
-                                    "binary data",
-                                    "a text file",
-                                    "Is it another file than you meant?"});
-    else
-      FileReader(file_name, prm, errors).read(text);
+      {
+        errors.add(Base::InputMessage{"parameter file " + file_name,
+                                      "binary data",
+                                      "a text file",
+                                      "Is it another file than you meant?"});
+        return false;
+      }
+    if (!has_assignment(text))
+      {
+        errors.add("parameter file " + file_name +
+                   "\n  found no 'set' in it; allowed: lines "
+                   "'set NAME = VALUE' in 'subsection NAME' ... 'end'");
+        return false;
+      }
+    FileReader(file_name, prm, errors).read(text);
+    return true;
   }
 
 
-  void
+  bool
   read_file(const std::string         &file_name,
             dealii::ParameterHandler  &prm,
             Base::InputErrorCollector &errors)
@@ -308,7 +329,7 @@ namespace Perimorph::Parameters
       {
         errors.add("parameter file " + file_name +
                    "\n  found a folder; allowed: a text file");
-        return;
+        return false;
       }
     if (!std::filesystem::exists(file_name, code))
       {
@@ -317,18 +338,18 @@ namespace Perimorph::Parameters
           neighbours(file_name));
         errors.add("parameter file " + file_name + " does not exist" +
                    (nearest ? "; did you mean '" + *nearest + "'?" : ""));
-        return;
+        return false;
       }
     std::ifstream file(file_name, std::ios::binary);
     if (!file)
       {
         errors.add("parameter file " + file_name +
                    " cannot be opened for reading");
-        return;
+        return false;
       }
     const std::string text((std::istreambuf_iterator<char>(file)),
                            std::istreambuf_iterator<char>());
-    read_text(text, file_name, prm, errors);
+    return read_text(text, file_name, prm, errors);
   }
 
 } // namespace Perimorph::Parameters

@@ -12,92 +12,92 @@
 
 namespace Perimorph::Application
 {
-/// A state of equilibrium, complete on every rank (one entry per node).
-template <int dim>
-struct State
-{
-  std::vector<dealii::Tensor<1, dim>> displacement;
-  std::vector<dealii::Tensor<1, dim>> internal_force;
-  std::vector<dealii::Tensor<1, dim>> external_force;
-  double                              strain_energy = 0.;
-};
+  /// A state of equilibrium, complete on every rank (one entry per node).
+  template <int dim>
+  struct State
+  {
+    std::vector<dealii::Tensor<1, dim>> displacement;
+    std::vector<dealii::Tensor<1, dim>> internal_force;
+    std::vector<dealii::Tensor<1, dim>> external_force;
+    double                              strain_energy = 0.;
+  };
 
-/// One number for results.json.
-struct NamedQuantity
-{
-  std::string name;
-  double      value;
-  std::string unit;
-};
+  /// One number for results.json.
+  struct NamedQuantity
+  {
+    std::string name;
+    double      value;
+    std::string unit;
+  };
 
-/// Everything that is read off a state: stress concentration, probes,
-/// reactions, errors. Whatever can be wrong with what the user asks for is
-/// found by the constructor, before the solve.
-template <int dim>
-class PostProcessing
-{
-public:
-  /// @throws Base::InputError  boundaries not in the mesh, points outside the
-  ///         body, unreadable reference data, references without a quantity
-  PostProcessing(const SimulationParameters<dim>     &parameters,
-                 const Mesh::DistributedMesh<dim>    &mesh,
-                 const Coupling::BodyMaterials<dim>  &materials,
-                 const Fem::Supports<dim>            &supports);
-  ~PostProcessing();
+  /// Everything that is read off a state: stress concentration, probes,
+  /// reactions, errors. Whatever can be wrong with what the user asks for is
+  /// found by the constructor, before the solve.
+  template <int dim>
+  class PostProcessing
+  {
+  public:
+    /// @throws Base::InputError  boundaries not in the mesh, points outside the
+    ///         body, unreadable reference data, references without a quantity
+    PostProcessing(const SimulationParameters<dim>    &parameters,
+                   const Mesh::DistributedMesh<dim>   &mesh,
+                   const Coupling::BodyMaterials<dim> &materials,
+                   const Fem::Supports<dim>           &supports);
+    ~PostProcessing();
 
-  std::vector<NamedQuantity>
-  evaluate(const State<dim> &state) const;
+    std::vector<NamedQuantity>
+    evaluate(const State<dim> &state) const;
 
-  /// Writes probe_<name>.csv of all lines and circles.
-  /// @return names of the files
-  std::vector<std::string>
-  write_probes(const State<dim> &state, const std::string &folder) const;
+    /// Writes probe_<name>.csv of all lines and circles.
+    /// @return names of the files
+    std::vector<std::string>
+    write_probes(const State<dim> &state, const std::string &folder) const;
 
-  /// Recovered stress at every node, complete on every rank.
-  std::vector<Fracture::Stress<dim>>
-  nodal_stress(const State<dim> &state) const;
+    /// Recovered stress at every node, complete on every rank.
+    std::vector<Fracture::Stress<dim>>
+    nodal_stress(const State<dim> &state) const;
 
-  /// Exact displacement at the nodes; empty without a reference.
-  std::vector<dealii::Tensor<1, dim>>
-  reference_displacement() const;
+    /// Exact displacement at the nodes; empty without a reference.
+    std::vector<dealii::Tensor<1, dim>>
+    reference_displacement() const;
 
-  /// Largest of the force and moment that is left over when loads and
-  /// reactions are added up, relative to the sum of their magnitudes.
-  double
-  imbalance(const State<dim> &state) const;
+    /// Largest of the force and moment that is left over when loads and
+    /// reactions are added up, relative to the sum of their magnitudes.
+    double
+    imbalance(const State<dim> &state) const;
 
-private:
-  void
-  check(Base::InputErrorCollector &errors);
+  private:
+    void
+    check(Base::InputErrorCollector &errors);
 
-  std::vector<std::string>
-  expected_names() const;
+    std::vector<std::string>
+    expected_names() const;
 
-  double
-  nominal_stress(const State<dim> &state) const;
+    double
+    nominal_stress(const State<dim> &state) const;
 
-  /// Force of the supports on a boundary.
-  dealii::Tensor<1, dim>
-  reaction(const std::string &boundary, const State<dim> &state) const;
+    /// Force of the supports on a boundary.
+    dealii::Tensor<1, dim>
+    reaction(const std::string &boundary, const State<dim> &state) const;
 
-  /// Force of the support at one degree of freedom; zero where it is free.
-  double
-  reaction_at(unsigned int dof, const State<dim> &state) const;
+    /// Force of the support at one degree of freedom; zero where it is free.
+    double
+    reaction_at(unsigned int dof, const State<dim> &state) const;
 
-  void
-  add_point(const std::string          &name,
-            const dealii::Point<dim>   &point,
-            const State<dim>           &state,
-            std::vector<NamedQuantity> &list) const;
+    void
+    add_point(const std::string          &name,
+              const dealii::Point<dim>   &point,
+              const State<dim>           &state,
+              std::vector<NamedQuantity> &list) const;
 
-  const SimulationParameters<dim>    &parameters;
-  const Mesh::DistributedMesh<dim>   &mesh;
-  const Coupling::BodyMaterials<dim> &materials;
-  const Fem::Supports<dim>           &supports;
+    const SimulationParameters<dim>    &parameters;
+    const Mesh::DistributedMesh<dim>   &mesh;
+    const Coupling::BodyMaterials<dim> &materials;
+    const Fem::Supports<dim>           &supports;
 
-  std::unique_ptr<Fracture::DisplacementFit<dim>> fit;
-  std::unique_ptr<Fracture::NodalStress<dim>>     recovery;
-  std::unique_ptr<Fracture::PointProbe<dim>>      probe;
-  std::vector<Fracture::ReferenceData<dim>>       reference_data;
-};
+    std::unique_ptr<Fracture::DisplacementFit<dim>> fit;
+    std::unique_ptr<Fracture::NodalStress<dim>>     recovery;
+    std::unique_ptr<Fracture::PointProbe<dim>>      probe;
+    std::vector<Fracture::ReferenceData<dim>>       reference_data;
+  };
 } // namespace Perimorph::Application

@@ -11,102 +11,102 @@
 
 namespace Perimorph::Base
 {
-class Log;
+  class Log;
 }
 
 namespace Perimorph::Application
 {
-/// A run from the parameters to the results. Reads like a table of contents;
-/// each chapter is a room of its own.
-template <int dim>
-class Simulation
-{
-public:
-  /// @param origins  where entries were set, for messages found later
-  Simulation(const SimulationParameters<dim> &parameters,
-             Base::Log                       &log,
-             MPI_Comm                         communicator);
-  ~Simulation();
-
-  /// Reads mesh and regions and checks everything that can be wrong.
-  /// @throws Base::InputError
-  void
-  prepare();
-
-  /// Reports what prepare() found, for --validate.
-  void
-  report_validation();
-
-  /// Solves all load steps and writes the results.
-  /// @param parameters_text  the parameters as used, saved with the results
-  /// @throws Base::InputError, Base::SolveError
-  void
-  run(const std::string &parameters_text);
-
-  /// Valid after run().
-  const Output::Results &
-  results() const
+  /// A run from the parameters to the results. Reads like a table of contents;
+  /// each chapter is a room of its own.
+  template <int dim>
+  class Simulation
   {
-    return *result;
-  }
+  public:
+    /// @param origins  where entries were set, for messages found later
+    Simulation(const SimulationParameters<dim> &parameters,
+               Base::Log                       &log,
+               MPI_Comm                         communicator);
+    ~Simulation();
 
-private:
-  /// One method on the mesh: the run itself, or its finite-element companion.
-  struct Method
-  {
-    Mesh::RegionMap                                region;
-    std::unique_ptr<Coupling::CoupledProblem<dim>> problem;
-    std::unique_ptr<Solvers::Equilibrium<dim>>     equilibrium;
-    Fem::Vector                                    displacement;
+    /// Reads mesh and regions and checks everything that can be wrong.
+    /// @throws Base::InputError
+    void
+    prepare();
+
+    /// Reports what prepare() found, for --validate.
+    void
+    report_validation();
+
+    /// Solves all load steps and writes the results.
+    /// @param parameters_text  the parameters as used, saved with the results
+    /// @throws Base::InputError, Base::SolveError
+    void
+    run(const std::string &parameters_text);
+
+    /// Valid after run().
+    const Output::Results &
+    results() const
+    {
+      return *result;
+    }
+
+  private:
+    /// One method on the mesh: the run itself, or its finite-element companion.
+    struct Method
+    {
+      Mesh::RegionMap                                region;
+      std::unique_ptr<Coupling::CoupledProblem<dim>> problem;
+      std::unique_ptr<Solvers::Equilibrium<dim>>     equilibrium;
+      Fem::Vector                                    displacement;
+    };
+
+    void
+    read_mesh();
+    void
+    assign_materials();
+    void
+    hold_rigid_motion();
+    void
+    check_load_balance(const Fem::NodePartition<dim> &partition) const;
+
+    void
+    open_output(const std::string &parameters_text);
+    Method
+    set_up(Mesh::Mode mode);
+    void
+    report_set_up(const Method &method);
+    void
+    solve_load_steps(Method &method);
+    void
+    remove_mean_rigid_motion(Method &method) const;
+    State<dim>
+    gather(const Method &method) const;
+    void
+    write_fields(const Method     &method,
+                 const State<dim> &state,
+                 unsigned int      step,
+                 double            time);
+    void
+    evaluate(const State<dim> &state);
+    void
+    compare_with_finite_elements(const State<dim> &state);
+    void
+    finish(Output::Status status);
+
+    SimulationParameters<dim> parameters;
+    Base::Log                &log;
+    MPI_Comm                  communicator;
+    Base::Timing              timing;
+
+    std::unique_ptr<Mesh::DistributedMesh<dim>> mesh;
+    Coupling::BodyMaterials<dim>                materials;
+    Mesh::RegionMap                             region;
+    std::unique_ptr<Fem::Supports<dim>>         supports;
+    std::unique_ptr<Fem::Loads<dim>>            loads;
+    std::vector<Fem::FreeMotion<dim>>           free_motions;
+    std::unique_ptr<PostProcessing<dim>>        post_processing;
+    std::unique_ptr<Output::Results>            result;
+    std::unique_ptr<Output::FieldOutput<dim>>   fields;
+    std::vector<std::string>                    files;
   };
-
-  void
-  read_mesh();
-  void
-  assign_materials();
-  void
-  hold_rigid_motion();
-  void
-  check_load_balance(const Fem::NodePartition<dim> &partition) const;
-
-  void
-  open_output(const std::string &parameters_text);
-  Method
-  set_up(Mesh::Mode mode);
-  void
-  report_set_up(const Method &method);
-  void
-  solve_load_steps(Method &method);
-  void
-  remove_mean_rigid_motion(Method &method) const;
-  State<dim>
-  gather(const Method &method) const;
-  void
-  write_fields(const Method     &method,
-               const State<dim> &state,
-               unsigned int      step,
-               double            time);
-  void
-  evaluate(const State<dim> &state);
-  void
-  compare_with_finite_elements(const State<dim> &state);
-  void
-  finish(Output::Status status);
-
-  SimulationParameters<dim> parameters;
-  Base::Log                &log;
-  MPI_Comm                  communicator;
-  Base::Timing              timing;
-
-  std::unique_ptr<Mesh::DistributedMesh<dim>> mesh;
-  Coupling::BodyMaterials<dim>                materials;
-  Mesh::RegionMap                             region;
-  std::unique_ptr<Fem::Supports<dim>>         supports;
-  std::unique_ptr<Fem::Loads<dim>>            loads;
-  std::vector<Fem::FreeMotion<dim>>           free_motions;
-  std::unique_ptr<PostProcessing<dim>>        post_processing;
-  std::unique_ptr<Output::Results>            result;
-  std::unique_ptr<Output::FieldOutput<dim>>   fields;
-  std::vector<std::string>                    files;
-};
 } // namespace Perimorph::Application

@@ -18,130 +18,129 @@
 
 namespace Perimorph::Application
 {
-/// The texts of a parameter file as they were read: one member per entry.
-struct ParameterTexts
-{
-  void
-  declare(dealii::ParameterHandler &prm);
+  /// The texts of a parameter file as they were read: one member per entry.
+  struct ParameterTexts
+  {
+    void
+    declare(dealii::ParameterHandler &prm);
 
-  std::string  title, mode = "coupled", output_folder;
-  unsigned int dimension = 2;
+    std::string  title, mode = "coupled", output_folder;
+    unsigned int dimension = 2;
 
-  std::string mesh_file, geometry_parameters;
+    std::string mesh_file, geometry_parameters;
 
-  std::string law = "linear elastic", state = "automatic", by_volume;
-  double      youngs_modulus = 0., poissons_ratio = 0.;
+    std::string law = "linear elastic", state = "automatic", by_volume;
+    double      youngs_modulus = 0., poissons_ratio = 0.;
 
-  std::string model = "correspondence", around, core_size = "2 horizons",
-              blending_width = "automatic", blending_function = "cubic",
-              influence_function = "gaussian", coupling = "consistent";
-  double horizon_ratio = 2., horizon = 0., stabilization = 1.;
+    std::string model = "correspondence", around, core_size = "2 horizons",
+                blending_width = "automatic", blending_function = "cubic",
+                influence_function = "gaussian", coupling = "consistent";
+    double horizon_ratio = 2., horizon = 0., stabilization = 1.;
 
-  std::string symmetry, displacement, traction, pressure, body_force,
-    point_displacement, point_force;
-  bool remove_rigid_motion = true;
+    std::string symmetry, displacement, traction, pressure, body_force,
+      point_displacement, point_force;
+    bool remove_rigid_motion = true;
 
-  unsigned int n_steps  = 1;
-  double       end_time = 1.;
+    unsigned int n_steps  = 1;
+    double       end_time = 1.;
 
-  std::string constants;
+    std::string constants;
 
-  std::string  linear_solver = "automatic", tangent = "automatic";
-  double       linear_tolerance = 1e-10, newton_tolerance = 1e-9;
-  unsigned int maximum_newton_iterations = 20;
+    std::string  linear_solver = "automatic", tangent = "automatic";
+    double       linear_tolerance = 1e-10, newton_tolerance = 1e-9;
+    unsigned int maximum_newton_iterations = 20;
 
-  std::string stress_concentration, nominal_stress, deflection, stress_ratio,
-    point, line, circle, reaction;
-  bool compare_with_finite_elements = false;
+    std::string stress_concentration, nominal_stress, deflection, stress_ratio,
+      point, line, circle, reaction;
+    bool compare_with_finite_elements = false;
 
-  std::string reference_values, reference_displacement, reference_data,
-    reference_source;
+    std::string reference_values, reference_displacement, reference_data,
+      reference_source;
 
-  bool write_fields = true, write_stress = true, write_particles = true;
-};
+    bool write_fields = true, write_stress = true, write_particles = true;
+  };
 
-/// Elastic constants of one material, before laws are made of them.
-struct MaterialConstants
-{
-  double youngs_modulus;
-  double poissons_ratio;
-};
+  /// Elastic constants of one material, before laws are made of them.
+  struct MaterialConstants
+  {
+    double youngs_modulus;
+    double poissons_ratio;
+  };
 
-/// A CSV file with reference values at points.
-struct ReferenceData
-{
-  std::string name;
-  std::string file;
-};
+  /// A CSV file with reference values at points.
+  struct ReferenceData
+  {
+    std::string name;
+    std::string file;
+  };
 
-/// Everything a run needs to know, checked and typed.
-template <int dim>
-struct SimulationParameters
-{
-  /// Reads the texts; all problems go into `errors`.
-  /// @param parameter_file  its folder is where relative paths start
-  SimulationParameters(const ParameterTexts      &texts,
-                       const std::string         &parameter_file,
-                       Base::InputErrorCollector &errors);
+  /// Everything a run needs to know, checked and typed.
+  template <int dim>
+  struct SimulationParameters
+  {
+    /// Reads the texts; all problems go into `errors`.
+    /// @param parameter_file  its folder is where relative paths start
+    SimulationParameters(const ParameterTexts      &texts,
+                         const std::string         &parameter_file,
+                         Base::InputErrorCollector &errors);
 
-  std::string case_name; ///< title, or the name of the parameter file
-  std::string output_folder;
+    std::string case_name; ///< title, or the name of the parameter file
+    std::string output_folder;
 
-  std::string                   mesh_file;
-  std::map<std::string, double> geometry_parameters;
+    std::string                   mesh_file;
+    std::map<std::string, double> geometry_parameters;
 
-  Materials::PlaneState                    state;
-  MaterialConstants                        material;
-  std::map<std::string, MaterialConstants> volume_materials;
+    Materials::PlaneState                    state;
+    MaterialConstants                        material;
+    std::map<std::string, MaterialConstants> volume_materials;
 
-  Mesh::RegionParameters       region;
-  Coupling::CouplingParameters coupling;
-  Fem::BoundaryConditions<dim> boundary_conditions;
+    Mesh::RegionParameters       region;
+    Coupling::CouplingParameters coupling;
+    Fem::BoundaryConditions<dim> boundary_conditions;
 
-  unsigned int n_steps;
-  double       end_time;
+    unsigned int n_steps;
+    double       end_time;
 
-  Solvers::LinearSolverKind linear_solver;
-  Solvers::TangentKind      tangent;
-  double                    linear_tolerance;
-  Solvers::NewtonParameters newton;
+    Solvers::LinearSolverKind linear_solver;
+    Solvers::TangentKind      tangent;
+    double                    linear_tolerance;
+    Solvers::NewtonParameters newton;
 
-  std::string                          stress_concentration; ///< boundary
-  Parameters::NominalStress            nominal_stress;
-  std::vector<Parameters::ProbePoint>  deflections, stress_ratios, points;
-  std::vector<Parameters::ProbeLine>   lines;
-  std::vector<Parameters::ProbeCircle> circles;
-  std::vector<std::string>             reactions;
-  bool                                 compare_with_finite_elements;
+    std::string                          stress_concentration; ///< boundary
+    Parameters::NominalStress            nominal_stress;
+    std::vector<Parameters::ProbePoint>  deflections, stress_ratios, points;
+    std::vector<Parameters::ProbeLine>   lines;
+    std::vector<Parameters::ProbeCircle> circles;
+    std::vector<std::string>             reactions;
+    bool                                 compare_with_finite_elements;
 
-  std::vector<std::pair<std::string, double>> reference_values;
-  Fem::ComponentExpressions<dim>              reference_displacement;
-  bool                                        has_reference_displacement;
-  std::vector<ReferenceData>                  reference_data;
+    std::vector<std::pair<std::string, double>> reference_values;
+    Fem::ComponentExpressions<dim>              reference_displacement;
+    bool                                        has_reference_displacement;
+    std::vector<ReferenceData>                  reference_data;
 
-  bool write_fields, write_stress, write_particles;
+    bool write_fields, write_stress, write_particles;
 
-  /// Times of the load steps.
-  std::vector<double>
-  times() const;
+    /// Times of the load steps.
+    std::vector<double>
+    times() const;
 
-private:
-  void
-  read_materials(const ParameterTexts      &texts,
-                 Base::InputErrorCollector &errors);
-  void
-  read_region(const ParameterTexts      &texts,
-              Base::InputErrorCollector &errors);
-  void
-  read_boundary_conditions(const ParameterTexts      &texts,
-                           Base::InputErrorCollector &errors);
-  void
-  read_quantities(const ParameterTexts      &texts,
-                  const std::string         &parameter_file,
-                  Base::InputErrorCollector &errors);
-  void
-  check_bond_based(Base::InputErrorCollector &errors) const;
+  private:
+    void
+    read_materials(const ParameterTexts      &texts,
+                   Base::InputErrorCollector &errors);
+    void
+    read_region(const ParameterTexts &texts, Base::InputErrorCollector &errors);
+    void
+    read_boundary_conditions(const ParameterTexts      &texts,
+                             Base::InputErrorCollector &errors);
+    void
+    read_quantities(const ParameterTexts      &texts,
+                    const std::string         &parameter_file,
+                    Base::InputErrorCollector &errors);
+    void
+    check_bond_based(Base::InputErrorCollector &errors) const;
 
-  Parameters::Constants constants;
-};
+    Parameters::Constants constants;
+  };
 } // namespace Perimorph::Application

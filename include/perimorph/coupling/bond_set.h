@@ -10,45 +10,45 @@
 
 namespace Perimorph::Coupling
 {
-/// Bonds of the bond-based model that a rank owns, with global nodes.
-struct BondSet
-{
-  std::vector<std::array<unsigned int, 2>> nodes;
-  std::vector<double>                      stiffness; ///< k_ij [force/length]
-  std::size_t n_dropped = 0; ///< bonds that leave the body, of this rank
-};
+  /// Bonds of the bond-based model that a rank owns, with global nodes.
+  struct BondSet
+  {
+    std::vector<std::array<unsigned int, 2>> nodes;
+    std::vector<double>                      stiffness; ///< k_ij [force/length]
+    std::size_t n_dropped = 0; ///< bonds that leave the body, of this rank
+  };
 
-/// Elastic constants of one material as the bond-based model needs them.
-struct BondMaterial
-{
-  double                youngs_modulus;
-  Materials::PlaneState state;
-};
+  /// Elastic constants of one material as the bond-based model needs them.
+  struct BondMaterial
+  {
+    double                youngs_modulus;
+    Materials::PlaneState state;
+  };
 
-/// Bonds with calibrated stiffness, and what the elements must give up so that
-/// bonds and elements together pass the patch test.
-template <int dim>
-struct BondCoupling
-{
-  BondSet                                bonds;
-  std::vector<unsigned int>              cells; ///< owned cells with tensors
-  std::vector<typename SegmentResidual<dim>::PointTensors> tensors;
-};
+  /// Bonds with calibrated stiffness, and what the elements must give up so
+  /// that bonds and elements together pass the patch test.
+  template <int dim>
+  struct BondCoupling
+  {
+    BondSet                   bonds;
+    std::vector<unsigned int> cells; ///< owned cells with tensors
+    std::vector<typename SegmentResidual<dim>::PointTensors> tensors;
+  };
 
-/// Finds the bonds, drops those that leave the body, calibrates them on an
-/// ideal lattice, and computes the residual tensors (numerics-explicit.md,
-/// section 3).
-///
-/// @param alpha  blending weight per node
-/// @param with_residual  false for the uncorrected couplings
-/// @param progress  called with the number of bonds done and their total
-template <int dim>
-BondCoupling<dim>
-make_bond_coupling(
-  const Mesh::NodalMesh<dim>                           &mesh,
-  const std::vector<double>                            &alpha,
-  const std::vector<double>                            &horizon,
-  const std::vector<BondMaterial>                      &materials,
-  bool                                                  with_residual,
-  const std::function<void(std::size_t, std::size_t)> &progress = {});
+  /// Finds the bonds, drops those that leave the body, calibrates them on an
+  /// ideal lattice, and computes the residual tensors (numerics-explicit.md,
+  /// section 3).
+  ///
+  /// @param alpha  blending weight per node
+  /// @param with_residual  false for the uncorrected couplings
+  /// @param progress  called with the number of bonds done and their total
+  template <int dim>
+  BondCoupling<dim>
+  make_bond_coupling(
+    const Mesh::NodalMesh<dim>                          &mesh,
+    const std::vector<double>                           &alpha,
+    const std::vector<double>                           &horizon,
+    const std::vector<BondMaterial>                     &materials,
+    bool                                                 with_residual,
+    const std::function<void(std::size_t, std::size_t)> &progress = {});
 } // namespace Perimorph::Coupling

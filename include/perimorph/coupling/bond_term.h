@@ -6,106 +6,105 @@
 
 namespace Perimorph::Coupling
 {
-/// Energy of the bonds of this rank at small strain: sum of k (e . eta)^2 / 2.
-/// One block per node that owns bonds.
-template <int dim>
-class BondTerm : public Fem::Contribution<dim>
-{
-public:
-  using Vector = Fem::Vector;
-
-  BondTerm(const BondSet                  &bonds,
-           const Fem::NodePartition<dim> &partition);
-
-  std::string
-  name() const override;
-  bool
-  is_linear() const override;
-  double
-  energy(const Vector &displacement) const override;
-  void
-  add_residual(const Vector &displacement, Vector &residual) const override;
-  void
-  add_tangent_product(const Vector &displacement,
-                      const Vector &direction,
-                      Vector       &product) const override;
-  unsigned int
-  n_blocks() const override;
-  void
-  block_nodes(unsigned int               block,
-              std::vector<unsigned int> &nodes) const override;
-  void
-  block_tangent(unsigned int                block,
-                const Vector               &displacement,
-                dealii::FullMatrix<double> &matrix) const override;
-
-private:
-  struct Star
+  /// Energy of the bonds of this rank at small strain: sum of k (e . eta)^2
+  /// / 2. One block per node that owns bonds.
+  template <int dim>
+  class BondTerm : public Fem::Contribution<dim>
   {
-    unsigned int node;
-    std::size_t  begin, end; ///< bonds to other nodes
+  public:
+    using Vector = Fem::Vector;
+
+    BondTerm(const BondSet &bonds, const Fem::NodePartition<dim> &partition);
+
+    std::string
+    name() const override;
+    bool
+    is_linear() const override;
+    double
+    energy(const Vector &displacement) const override;
+    void
+    add_residual(const Vector &displacement, Vector &residual) const override;
+    void
+    add_tangent_product(const Vector &displacement,
+                        const Vector &direction,
+                        Vector       &product) const override;
+    unsigned int
+    n_blocks() const override;
+    void
+    block_nodes(unsigned int               block,
+                std::vector<unsigned int> &nodes) const override;
+    void
+    block_tangent(unsigned int                block,
+                  const Vector               &displacement,
+                  dealii::FullMatrix<double> &matrix) const override;
+
+  private:
+    struct Star
+    {
+      unsigned int node;
+      std::size_t  begin, end; ///< bonds to other nodes
+    };
+
+    std::vector<Star>                   stars;
+    std::vector<unsigned int>           neighbor;
+    std::vector<double>                 stiffness;
+    std::vector<dealii::Tensor<1, dim>> xi;
   };
 
-  std::vector<Star>                   stars;
-  std::vector<unsigned int>           neighbor;
-  std::vector<double>                 stiffness;
-  std::vector<dealii::Tensor<1, dim>> xi;
-};
+  /// What the elements give up to the bonds that run through them:
+  /// E = - 1/2 sum over cells and points of jxw strain : C_q : strain
+  /// (numerics-explicit.md, section 3).
+  template <int dim>
+  class SegmentTerm : public Fem::Contribution<dim>
+  {
+  public:
+    using Vector = Fem::Vector;
 
-/// What the elements give up to the bonds that run through them:
-/// E = - 1/2 sum over cells and points of jxw strain : C_q : strain
-/// (numerics-explicit.md, section 3).
-template <int dim>
-class SegmentTerm : public Fem::Contribution<dim>
-{
-public:
-  using Vector = Fem::Vector;
+    SegmentTerm(const Mesh::NodalMesh<dim>    &mesh,
+                const Fem::NodePartition<dim> &partition,
+                const BondCoupling<dim>       &coupling);
 
-  SegmentTerm(const Mesh::NodalMesh<dim>    &mesh,
-              const Fem::NodePartition<dim> &partition,
-              const BondCoupling<dim>       &coupling);
+    std::string
+    name() const override;
+    bool
+    is_linear() const override;
+    double
+    energy(const Vector &displacement) const override;
+    void
+    add_residual(const Vector &displacement, Vector &residual) const override;
+    void
+    add_tangent_product(const Vector &displacement,
+                        const Vector &direction,
+                        Vector       &product) const override;
+    unsigned int
+    n_blocks() const override;
+    void
+    block_nodes(unsigned int               block,
+                std::vector<unsigned int> &nodes) const override;
+    void
+    block_tangent(unsigned int                block,
+                  const Vector               &displacement,
+                  dealii::FullMatrix<double> &matrix) const override;
 
-  std::string
-  name() const override;
-  bool
-  is_linear() const override;
-  double
-  energy(const Vector &displacement) const override;
+  private:
+    static constexpr unsigned int n_nodes = 1u << dim;
+    using PointTensors = typename SegmentResidual<dim>::PointTensors;
+
+    Mesh::CellGeometry<dim>
+    geometry(unsigned int block) const;
+
+    dealii::SymmetricTensor<2, dim>
+    strain(unsigned int                   block,
+           const Mesh::CellGeometry<dim> &geometry,
+           unsigned int                   q,
+           const double                  *vector) const;
+
+    const Fem::NodePartition<dim>                 &partition;
+    std::vector<std::array<unsigned int, n_nodes>> nodes;
+    std::vector<PointTensors>                      tensors;
+  };
+
+  /// Nodes a rank needs for its bonds.
   void
-  add_residual(const Vector &displacement, Vector &residual) const override;
-  void
-  add_tangent_product(const Vector &displacement,
-                      const Vector &direction,
-                      Vector       &product) const override;
-  unsigned int
-  n_blocks() const override;
-  void
-  block_nodes(unsigned int               block,
-              std::vector<unsigned int> &nodes) const override;
-  void
-  block_tangent(unsigned int                block,
-                const Vector               &displacement,
-                dealii::FullMatrix<double> &matrix) const override;
-
-private:
-  static constexpr unsigned int n_nodes = 1u << dim;
-  using PointTensors = typename SegmentResidual<dim>::PointTensors;
-
-  Mesh::CellGeometry<dim>
-  geometry(unsigned int block) const;
-
-  dealii::SymmetricTensor<2, dim>
-  strain(unsigned int                   block,
-         const Mesh::CellGeometry<dim> &geometry,
-         unsigned int                   q,
-         const double                  *vector) const;
-
-  const Fem::NodePartition<dim>                 &partition;
-  std::vector<std::array<unsigned int, n_nodes>> nodes;
-  std::vector<PointTensors>                      tensors;
-};
-
-/// Nodes a rank needs for its bonds.
-void
-add_bond_nodes(const BondSet &bonds, std::vector<unsigned int> &needed);
+  add_bond_nodes(const BondSet &bonds, std::vector<unsigned int> &needed);
 } // namespace Perimorph::Coupling

@@ -8,40 +8,40 @@
 
 namespace Perimorph::Coupling
 {
-/// What the families of the correspondence model are built from.
-struct FamilyParameters
-{
-  Peridynamics::InfluenceFunction influence =
-    Peridynamics::InfluenceFunction::gaussian;
-  double gamma = 1.; ///< dimensionless stabilisation
-  /// Shear modulus of each material: the scale of the stabilisation.
-  std::vector<double> shear_modulus;
-};
+  /// What the families of the correspondence model are built from.
+  struct FamilyParameters
+  {
+    Peridynamics::InfluenceFunction influence =
+      Peridynamics::InfluenceFunction::gaussian;
+    double gamma = 1.; ///< dimensionless stabilisation
+    /// Shear modulus of each material: the scale of the stabilisation.
+    std::vector<double> shear_modulus;
+  };
 
-/// Families of the particles of this rank with the consistent, explicit
-/// nonlocal gradient: the average, with weights that sum to alpha at every
-/// quadrature point, of the finite-element gradients in the horizon. Any
-/// affine displacement then gives exactly the finite-element forces, on any
-/// mesh and for any alpha (numerics-explicit.md, section 2).
-///
-/// @param alpha    blending weight per node, 1 = peridynamics
-/// @param horizon  per node [length]
-template <int dim>
-Peridynamics::FamilySet<dim>
-consistent_families(const Mesh::NodalMesh<dim> &mesh,
-                    const std::vector<double>  &alpha,
-                    const std::vector<double>  &horizon,
-                    const FamilyParameters     &parameters);
+  /// Families of the particles of this rank with the consistent, explicit
+  /// nonlocal gradient: the average, with weights that sum to alpha at every
+  /// quadrature point, of the finite-element gradients in the horizon. Any
+  /// affine displacement then gives exactly the finite-element forces, on any
+  /// mesh and for any alpha (numerics-explicit.md, section 2).
+  ///
+  /// @param alpha    blending weight per node, 1 = peridynamics
+  /// @param horizon  per node [length]
+  template <int dim>
+  Peridynamics::FamilySet<dim>
+  consistent_families(const Mesh::NodalMesh<dim> &mesh,
+                      const std::vector<double>  &alpha,
+                      const std::vector<double>  &horizon,
+                      const FamilyParameters     &parameters);
 
-/// Families with the classical gradient w_ij K_i^-1 xi_ij and weight
-/// alpha_i V_i (numerics.md, section 2, uncorrected): bonds are all nodes
-/// within the horizon and in the cells at the node.
-///
-/// @throws Base::InputError   a particle whose shape tensor is singular
-template <int dim>
-Peridynamics::FamilySet<dim>
-classical_families(const Mesh::NodalMesh<dim> &mesh,
-                   const std::vector<double>  &alpha,
-                   const std::vector<double>  &horizon,
-                   const FamilyParameters     &parameters);
+  /// Families with the classical gradient w_ij K_i^-1 xi_ij and weight
+  /// alpha_i V_i (numerics.md, section 2, uncorrected): bonds are all nodes
+  /// within the horizon and in the cells at the node.
+  ///
+  /// @throws Base::InputError   a particle whose shape tensor is singular
+  template <int dim>
+  Peridynamics::FamilySet<dim>
+  classical_families(const Mesh::NodalMesh<dim> &mesh,
+                     const std::vector<double>  &alpha,
+                     const std::vector<double>  &horizon,
+                     const FamilyParameters     &parameters);
 } // namespace Perimorph::Coupling

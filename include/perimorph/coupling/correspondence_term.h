@@ -6,68 +6,68 @@
 
 namespace Perimorph::Coupling
 {
-/// Energy of the correspondence families of this rank:
-/// E = sum_i a_i [ W(F_i) + stabilisation ]. One block per particle; the
-/// product with the tangent is applied in factored form, through the gradient
-/// of each particle, so that no matrix is needed.
-template <int dim>
-class CorrespondenceTerm : public Fem::Contribution<dim>
-{
-public:
-  using Vector       = Fem::Vector;
-  using MaterialList = typename Fem::ElasticCells<dim>::MaterialList;
+  /// Energy of the correspondence families of this rank:
+  /// E = sum_i a_i [ W(F_i) + stabilisation ]. One block per particle; the
+  /// product with the tangent is applied in factored form, through the gradient
+  /// of each particle, so that no matrix is needed.
+  template <int dim>
+  class CorrespondenceTerm : public Fem::Contribution<dim>
+  {
+  public:
+    using Vector       = Fem::Vector;
+    using MaterialList = typename Fem::ElasticCells<dim>::MaterialList;
 
-  /// @param families  with global nodes; kept and renumbered to local nodes
-  CorrespondenceTerm(Peridynamics::FamilySet<dim>   families,
-                     const Fem::NodePartition<dim> &partition,
-                     const MaterialList            &materials);
+    /// @param families  with global nodes; kept and renumbered to local nodes
+    CorrespondenceTerm(Peridynamics::FamilySet<dim>   families,
+                       const Fem::NodePartition<dim> &partition,
+                       const MaterialList            &materials);
 
-  std::string
-  name() const override;
-  bool
-  is_linear() const override;
-  double
-  energy(const Vector &displacement) const override;
+    std::string
+    name() const override;
+    bool
+    is_linear() const override;
+    double
+    energy(const Vector &displacement) const override;
+    void
+    add_residual(const Vector &displacement, Vector &residual) const override;
+    void
+    add_tangent_product(const Vector &displacement,
+                        const Vector &direction,
+                        Vector       &product) const override;
+    unsigned int
+    n_blocks() const override;
+    void
+    block_nodes(unsigned int               block,
+                std::vector<unsigned int> &nodes) const override;
+    void
+    block_tangent(unsigned int                block,
+                  const Vector               &displacement,
+                  dealii::FullMatrix<double> &matrix) const override;
+
+  private:
+    Peridynamics::Family<dim>
+    family(unsigned int particle) const;
+
+    /// Relative displacements of the bonds of a particle.
+    void
+    relative_displacements(unsigned int            particle,
+                           const double           *vector,
+                           dealii::Tensor<1, dim> *eta) const;
+
+    void
+    scatter(unsigned int                  particle,
+            const dealii::Tensor<1, dim> *forces,
+            double                       *vector) const;
+
+    Peridynamics::FamilySet<dim>        families; ///< local nodes
+    std::vector<dealii::Tensor<1, dim>> xi;       ///< one per bond
+    const MaterialList                 &materials;
+    unsigned int                        largest_family = 0;
+  };
+
+  /// Nodes a rank needs for its families.
+  template <int dim>
   void
-  add_residual(const Vector &displacement, Vector &residual) const override;
-  void
-  add_tangent_product(const Vector &displacement,
-                      const Vector &direction,
-                      Vector       &product) const override;
-  unsigned int
-  n_blocks() const override;
-  void
-  block_nodes(unsigned int               block,
-              std::vector<unsigned int> &nodes) const override;
-  void
-  block_tangent(unsigned int                block,
-                const Vector               &displacement,
-                dealii::FullMatrix<double> &matrix) const override;
-
-private:
-  Peridynamics::Family<dim>
-  family(unsigned int particle) const;
-
-  /// Relative displacements of the bonds of a particle.
-  void
-  relative_displacements(unsigned int            particle,
-                         const double           *vector,
-                         dealii::Tensor<1, dim> *eta) const;
-
-  void
-  scatter(unsigned int                  particle,
-          const dealii::Tensor<1, dim> *forces,
-          double                       *vector) const;
-
-  Peridynamics::FamilySet<dim>        families; ///< local nodes
-  std::vector<dealii::Tensor<1, dim>> xi;       ///< one per bond
-  const MaterialList                 &materials;
-  unsigned int                        largest_family = 0;
-};
-
-/// Nodes a rank needs for its families.
-template <int dim>
-void
-add_family_nodes(const Peridynamics::FamilySet<dim> &families,
-                 std::vector<unsigned int>          &needed);
+  add_family_nodes(const Peridynamics::FamilySet<dim> &families,
+                   std::vector<unsigned int>          &needed);
 } // namespace Perimorph::Coupling

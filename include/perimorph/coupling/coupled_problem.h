@@ -12,131 +12,131 @@
 
 namespace Perimorph::Coupling
 {
-enum class Model
-{
-  correspondence,
-  bond_based
-};
-
-/// How peridynamics and finite elements share the energy.
-enum class Scheme
-{
-  consistent,      ///< exact patch test on any mesh
-  energy_blending, ///< classical: alpha and 1 - alpha as energy weights
-  force_blending   ///< classical: equations weighted; not symmetric
-};
-
-const std::vector<std::string> &
-model_names();
-const std::vector<std::string> &
-scheme_names();
-
-struct CouplingParameters
-{
-  Model                           model  = Model::correspondence;
-  Scheme                          scheme = Scheme::consistent;
-  Peridynamics::InfluenceFunction influence =
-    Peridynamics::InfluenceFunction::gaussian;
-  double gamma = 1.;
-};
-
-/// The materials of the body: laws for elements and families, constants for
-/// bonds; index = NodalMesh::cell_material.
-template <int dim>
-struct BodyMaterials
-{
-  typename Fem::ElasticCells<dim>::MaterialList laws;
-  std::vector<BondMaterial>                     bond_constants;
-};
-
-/// The internal energy of the coupled body as a list of contributions. What a
-/// scene does not have is not in the list.
-template <int dim>
-class CoupledProblem
-{
-public:
-  using Term     = Fem::Contribution<dim>;
-  using Vector   = Fem::Vector;
-  using Progress = std::function<void(std::size_t, std::size_t)>;
-
-  CoupledProblem(const Mesh::DistributedMesh<dim> &mesh,
-                 const Mesh::RegionMap            &region,
-                 const BodyMaterials<dim>         &materials,
-                 const CouplingParameters         &parameters,
-                 const Progress                   &progress = {});
-
-  const Fem::NodePartition<dim> &
-  partition() const
+  enum class Model
   {
-    return *node_partition;
-  }
-
-  /// All contributions, or only those that may be applied without a matrix
-  /// (families) or must be assembled (the others).
-  std::vector<const Term *>
-  terms() const;
-  std::vector<const Term *>
-  family_terms() const;
-  std::vector<const Term *>
-  assembled_terms() const;
-
-  /// Plain finite elements everywhere, the reference of the patch test and
-  /// the preconditioner of the coupled problem.
-  const Fem::ElasticCells<dim> &
-  full_elements() const
-  {
-    return *all_cells;
-  }
-
-  bool
-  is_linear() const;
-
-  bool
-  is_symmetric() const;
-
-  /// Internal forces into a vector with ghosts; exchanged and complete.
-  /// @param displacement  ghosts up to date
-  void
-  internal_forces(const Vector &displacement, Vector &forces) const;
-
-  /// Strain energy of all ranks.
-  double
-  strain_energy(const Vector &displacement) const;
-
-  /// The affine patch test on this mesh: largest difference between internal
-  /// forces and finite-element forces over unit strains, relative to
-  /// |stress| spacing^(dim - 1).
-  /// @param excluded  degrees of freedom that do not count (Dirichlet)
-  double
-  ghost_force(const std::function<bool(unsigned int)> &excluded) const;
-
-  struct Counts
-  {
-    std::size_t particles    = 0;
-    std::size_t bonds        = 0;
-    std::size_t dropped      = 0; ///< bonds that would leave the body
-    std::size_t active_cells = 0;
+    correspondence,
+    bond_based
   };
 
-  /// Sums over all ranks.
-  Counts
-  counts() const;
+  /// How peridynamics and finite elements share the energy.
+  enum class Scheme
+  {
+    consistent,      ///< exact patch test on any mesh
+    energy_blending, ///< classical: alpha and 1 - alpha as energy weights
+    force_blending   ///< classical: equations weighted; not symmetric
+  };
 
-private:
-  void
-  make_correspondence(const Mesh::RegionMap    &region,
-                      const CouplingParameters &parameters);
-  void
-  make_bonds(const Mesh::RegionMap    &region,
-             const CouplingParameters &parameters,
-             const Progress           &progress);
+  const std::vector<std::string> &
+  model_names();
+  const std::vector<std::string> &
+  scheme_names();
 
-  const Mesh::DistributedMesh<dim>         &mesh;
-  const BodyMaterials<dim>                 &materials;
-  std::unique_ptr<Fem::NodePartition<dim>>  node_partition;
-  std::unique_ptr<Fem::ElasticCells<dim>>   all_cells;
-  std::vector<std::unique_ptr<Term>>        contributions;
-  std::vector<const Term *>                 families;
-  Counts                                    local_counts;
-};
+  struct CouplingParameters
+  {
+    Model                           model  = Model::correspondence;
+    Scheme                          scheme = Scheme::consistent;
+    Peridynamics::InfluenceFunction influence =
+      Peridynamics::InfluenceFunction::gaussian;
+    double gamma = 1.;
+  };
+
+  /// The materials of the body: laws for elements and families, constants for
+  /// bonds; index = NodalMesh::cell_material.
+  template <int dim>
+  struct BodyMaterials
+  {
+    typename Fem::ElasticCells<dim>::MaterialList laws;
+    std::vector<BondMaterial>                     bond_constants;
+  };
+
+  /// The internal energy of the coupled body as a list of contributions. What a
+  /// scene does not have is not in the list.
+  template <int dim>
+  class CoupledProblem
+  {
+  public:
+    using Term     = Fem::Contribution<dim>;
+    using Vector   = Fem::Vector;
+    using Progress = std::function<void(std::size_t, std::size_t)>;
+
+    CoupledProblem(const Mesh::DistributedMesh<dim> &mesh,
+                   const Mesh::RegionMap            &region,
+                   const BodyMaterials<dim>         &materials,
+                   const CouplingParameters         &parameters,
+                   const Progress                   &progress = {});
+
+    const Fem::NodePartition<dim> &
+    partition() const
+    {
+      return *node_partition;
+    }
+
+    /// All contributions, or only those that may be applied without a matrix
+    /// (families) or must be assembled (the others).
+    std::vector<const Term *>
+    terms() const;
+    std::vector<const Term *>
+    family_terms() const;
+    std::vector<const Term *>
+    assembled_terms() const;
+
+    /// Plain finite elements everywhere, the reference of the patch test and
+    /// the preconditioner of the coupled problem.
+    const Fem::ElasticCells<dim> &
+    full_elements() const
+    {
+      return *all_cells;
+    }
+
+    bool
+    is_linear() const;
+
+    bool
+    is_symmetric() const;
+
+    /// Internal forces into a vector with ghosts; exchanged and complete.
+    /// @param displacement  ghosts up to date
+    void
+    internal_forces(const Vector &displacement, Vector &forces) const;
+
+    /// Strain energy of all ranks.
+    double
+    strain_energy(const Vector &displacement) const;
+
+    /// The affine patch test on this mesh: largest difference between internal
+    /// forces and finite-element forces over unit strains, relative to
+    /// |stress| spacing^(dim - 1).
+    /// @param excluded  degrees of freedom that do not count (Dirichlet)
+    double
+    ghost_force(const std::function<bool(unsigned int)> &excluded) const;
+
+    struct Counts
+    {
+      std::size_t particles    = 0;
+      std::size_t bonds        = 0;
+      std::size_t dropped      = 0; ///< bonds that would leave the body
+      std::size_t active_cells = 0;
+    };
+
+    /// Sums over all ranks.
+    Counts
+    counts() const;
+
+  private:
+    void
+    make_correspondence(const Mesh::RegionMap    &region,
+                        const CouplingParameters &parameters);
+    void
+    make_bonds(const Mesh::RegionMap    &region,
+               const CouplingParameters &parameters,
+               const Progress           &progress);
+
+    const Mesh::DistributedMesh<dim>        &mesh;
+    const BodyMaterials<dim>                &materials;
+    std::unique_ptr<Fem::NodePartition<dim>> node_partition;
+    std::unique_ptr<Fem::ElasticCells<dim>>  all_cells;
+    std::vector<std::unique_ptr<Term>>       contributions;
+    std::vector<const Term *>                families;
+    Counts                                   local_counts;
+  };
 } // namespace Perimorph::Coupling

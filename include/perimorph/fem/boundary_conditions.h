@@ -9,59 +9,59 @@
 
 namespace Perimorph::Fem
 {
-/// Scalar expressions for some components of a vector.
-template <int dim>
-using ComponentExpressions =
-  std::array<std::optional<Parameters::Expression>, dim>;
+  /// Scalar expressions for some components of a vector.
+  template <int dim>
+  using ComponentExpressions =
+    std::array<std::optional<Parameters::Expression>, dim>;
 
-/// Prescribed displacement on a named boundary or at the node nearest to a
-/// point (boundary empty).
-template <int dim>
-struct DisplacementCondition
-{
-  std::string               boundary;
-  std::vector<double>       point;
-  ComponentExpressions<dim> components;
+  /// Prescribed displacement on a named boundary or at the node nearest to a
+  /// point (boundary empty).
+  template <int dim>
+  struct DisplacementCondition
+  {
+    std::string               boundary;
+    std::vector<double>       point;
+    ComponentExpressions<dim> components;
 
-  std::string
-  label() const;
-};
+    std::string
+    label() const;
+  };
 
-/// Force per reference area on a named boundary; a pressure pushes against
-/// the outward normal.
-template <int dim>
-struct SurfaceLoad
-{
-  std::string                           boundary;
-  ComponentExpressions<dim>             traction;
-  std::optional<Parameters::Expression> pressure;
-};
+  /// Force per reference area on a named boundary; a pressure pushes against
+  /// the outward normal.
+  template <int dim>
+  struct SurfaceLoad
+  {
+    std::string                           boundary;
+    ComponentExpressions<dim>             traction;
+    std::optional<Parameters::Expression> pressure;
+  };
 
-/// Force per reference volume, in a named volume or everywhere (empty).
-template <int dim>
-struct BodyForce
-{
-  std::string               volume;
-  ComponentExpressions<dim> components;
-};
+  /// Force per reference volume, in a named volume or everywhere (empty).
+  template <int dim>
+  struct BodyForce
+  {
+    std::string               volume;
+    ComponentExpressions<dim> components;
+  };
 
-/// Force at the node nearest to a point.
-template <int dim>
-struct PointForce
-{
-  std::vector<double>       point;
-  ComponentExpressions<dim> components;
-};
+  /// Force at the node nearest to a point.
+  template <int dim>
+  struct PointForce
+  {
+    std::vector<double>       point;
+    ComponentExpressions<dim> components;
+  };
 
-/// Everything that supports and loads the body.
-template <int dim>
-struct BoundaryConditions
-{
-  std::vector<std::string>                symmetry;
-  std::vector<DisplacementCondition<dim>> displacement;
-  std::vector<SurfaceLoad<dim>>           surface_loads;
-  std::vector<BodyForce<dim>>             body_forces;
-  std::vector<PointForce<dim>>            point_forces;
-  bool                                    remove_rigid_motion = true;
-};
+  /// Everything that supports and loads the body.
+  template <int dim>
+  struct BoundaryConditions
+  {
+    std::vector<std::string>                symmetry;
+    std::vector<DisplacementCondition<dim>> displacement;
+    std::vector<SurfaceLoad<dim>>           surface_loads;
+    std::vector<BodyForce<dim>>             body_forces;
+    std::vector<PointForce<dim>>            point_forces;
+    bool                                    remove_rigid_motion = true;
+  };
 } // namespace Perimorph::Fem

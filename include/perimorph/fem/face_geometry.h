@@ -5,35 +5,35 @@
 
 namespace Perimorph::Fem
 {
-/// Quadrature on one face of the body's surface (three Gauss points per
-/// direction: exact for loads up to degree 4 on straight faces).
-template <int dim>
-struct FaceGeometry
-{
-  static constexpr unsigned int n_nodes  = 1u << (dim - 1);
-  static constexpr unsigned int n_points = dim == 2 ? 3 : 9;
+  /// Quadrature on one face of the body's surface (three Gauss points per
+  /// direction: exact for loads up to degree 4 on straight faces).
+  template <int dim>
+  struct FaceGeometry
+  {
+    static constexpr unsigned int n_nodes  = 1u << (dim - 1);
+    static constexpr unsigned int n_points = dim == 2 ? 3 : 9;
 
-  std::array<dealii::Point<dim>, n_points>             points;
-  /// Outward normal times the area weight.
-  std::array<dealii::Tensor<1, dim>, n_points>         normal_jxw;
-  std::array<std::array<double, n_nodes>, n_points>    shape;
+    std::array<dealii::Point<dim>, n_points> points;
+    /// Outward normal times the area weight.
+    std::array<dealii::Tensor<1, dim>, n_points>      normal_jxw;
+    std::array<std::array<double, n_nodes>, n_points> shape;
 
-  FaceGeometry(const Mesh::NodalMesh<dim>      &mesh,
-               const Mesh::BoundaryFace<dim>   &face);
-};
+    FaceGeometry(const Mesh::NodalMesh<dim>    &mesh,
+                 const Mesh::BoundaryFace<dim> &face);
+  };
 
-/// The plane of a boundary that is used as a symmetry support.
-/// @throws Base::InputError  it is not a plane normal to an axis
-template <int dim>
-SymmetryPlane<dim>
-symmetry_plane(const Mesh::DistributedMesh<dim> &mesh,
-               const std::string                &boundary,
-               const std::string                &used_by);
+  /// The plane of a boundary that is used as a symmetry support.
+  /// @throws Base::InputError  it is not a plane normal to an axis
+  template <int dim>
+  SymmetryPlane<dim>
+  symmetry_plane(const Mesh::DistributedMesh<dim> &mesh,
+                 const std::string                &boundary,
+                 const std::string                &used_by);
 
-/// Area of a named boundary (length in 2D).
-template <int dim>
-double
-boundary_area(const Mesh::DistributedMesh<dim> &mesh,
-              const std::string                &boundary,
-              const std::string                &used_by);
+  /// Area of a named boundary (length in 2D).
+  template <int dim>
+  double
+  boundary_area(const Mesh::DistributedMesh<dim> &mesh,
+                const std::string                &boundary,
+                const std::string                &used_by);
 } // namespace Perimorph::Fem

@@ -7,39 +7,39 @@
 
 namespace Perimorph::Fem
 {
-/// One rigid motion that the supports leave free: a field over the nodes of
-/// one piece of the body.
-template <int dim>
-struct FreeMotion
-{
-  unsigned int           piece;
-  dealii::Tensor<1, dim> translation;
-  /// Rotation rate times (x - centre): antisymmetric.
-  dealii::Tensor<2, dim> rotation;
-  dealii::Point<dim>     center;
-
-  dealii::Tensor<1, dim>
-  at(const dealii::Point<dim> &point) const
+  /// One rigid motion that the supports leave free: a field over the nodes of
+  /// one piece of the body.
+  template <int dim>
+  struct FreeMotion
   {
-    return translation + rotation * (point - center);
-  }
+    unsigned int           piece;
+    dealii::Tensor<1, dim> translation;
+    /// Rotation rate times (x - centre): antisymmetric.
+    dealii::Tensor<2, dim> rotation;
+    dealii::Point<dim>     center;
 
-  /// "translation along (1, 0)" or "rotation".
-  std::string
-  description() const;
-};
+    dealii::Tensor<1, dim>
+    at(const dealii::Point<dim> &point) const
+    {
+      return translation + rotation * (point - center);
+    }
 
-/// Rigid motions of each piece that no support prevents; orthonormal in the
-/// mean over the nodes of their piece, with rotations scaled by its size.
-template <int dim>
-std::vector<FreeMotion<dim>>
-free_motions(const Mesh::DistributedMesh<dim> &mesh,
-             const Supports<dim>              &supports);
+    /// "translation along (1, 0)" or "rotation".
+    std::string
+    description() const;
+  };
 
-/// Degrees of freedom that, held at zero, just prevent the free motions; the
-/// choice does not depend on the number of ranks.
-template <int dim>
-std::vector<unsigned int>
-pins_against(const Mesh::DistributedMesh<dim>   &mesh,
-             const std::vector<FreeMotion<dim>> &motions);
+  /// Rigid motions of each piece that no support prevents; orthonormal in the
+  /// mean over the nodes of their piece, with rotations scaled by its size.
+  template <int dim>
+  std::vector<FreeMotion<dim>>
+  free_motions(const Mesh::DistributedMesh<dim> &mesh,
+               const Supports<dim>              &supports);
+
+  /// Degrees of freedom that, held at zero, just prevent the free motions; the
+  /// choice does not depend on the number of ranks.
+  template <int dim>
+  std::vector<unsigned int>
+  pins_against(const Mesh::DistributedMesh<dim>   &mesh,
+               const std::vector<FreeMotion<dim>> &motions);
 } // namespace Perimorph::Fem

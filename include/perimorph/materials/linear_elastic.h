@@ -4,48 +4,48 @@
 
 namespace Perimorph
 {
-namespace Materials
-{
-/// What a two-dimensional model assumes of the third direction.
-enum class PlaneState
-{
-  plane_stress,
-  plane_strain,
-  three_dimensional
-};
+  namespace Materials
+  {
+    /// What a two-dimensional model assumes of the third direction.
+    enum class PlaneState
+    {
+      plane_stress,
+      plane_strain,
+      three_dimensional
+    };
 
-/// Isotropic linear elasticity at small strain:
-/// P = lambda tr(e) I + 2 mu e with e = sym(F - I). In plane stress lambda is
-/// replaced by 2 lambda mu / (lambda + 2 mu).
-template <int dim>
-class LinearElastic : public Material<dim>
-{
-public:
-  /// @param youngs_modulus  E > 0 [stress]
-  /// @param poissons_ratio  -1 < nu < 0.5
-  LinearElastic(double     youngs_modulus,
-                double     poissons_ratio,
-                PlaneState state);
+    /// Isotropic linear elasticity at small strain:
+    /// P = lambda tr(e) I + 2 mu e with e = sym(F - I). In plane stress lambda
+    /// is replaced by 2 lambda mu / (lambda + 2 mu).
+    template <int dim>
+    class LinearElastic : public Material<dim>
+    {
+    public:
+      /// @param youngs_modulus  E > 0 [stress]
+      /// @param poissons_ratio  -1 < nu < 0.5
+      LinearElastic(double     youngs_modulus,
+                    double     poissons_ratio,
+                    PlaneState state);
 
-  std::string
-  name() const override;
-  bool
-  is_linear() const override;
-  double
-  energy_density(const dealii::Tensor<2, dim> &F) const override;
-  dealii::Tensor<2, dim>
-  first_piola_kirchhoff(const dealii::Tensor<2, dim> &F) const override;
-  dealii::Tensor<4, dim>
-  tangent(const dealii::Tensor<2, dim> &F) const override;
-  double
-  out_of_plane_stress(const dealii::Tensor<2, dim> &F) const override;
-  double
-  shear_modulus() const override;
+      std::string
+      name() const override;
+      bool
+      is_linear() const override;
+      double
+      energy_density(const dealii::Tensor<2, dim> &F) const override;
+      dealii::Tensor<2, dim>
+      first_piola_kirchhoff(const dealii::Tensor<2, dim> &F) const override;
+      dealii::Tensor<4, dim>
+      tangent(const dealii::Tensor<2, dim> &F) const override;
+      double
+      out_of_plane_stress(const dealii::Tensor<2, dim> &F) const override;
+      double
+      shear_modulus() const override;
 
-private:
-  PlaneState state;
-  double     lame_lambda; ///< of the in-plane law
-  double     lame_mu;
-};
-} // namespace Materials
+    private:
+      PlaneState state;
+      double     lame_lambda; ///< of the in-plane law
+      double     lame_mu;
+    };
+  } // namespace Materials
 } // namespace Perimorph

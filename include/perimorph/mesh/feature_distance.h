@@ -8,52 +8,52 @@
 
 namespace Perimorph::Mesh
 {
-/// Nearest place on a feature.
-template <int dim>
-struct ClosestPoint
-{
-  double             distance;
-  dealii::Point<dim> point;
-};
+  /// Nearest place on a feature.
+  template <int dim>
+  struct ClosestPoint
+  {
+    double             distance;
+    dealii::Point<dim> point;
+  };
 
-/// Distance from points to one feature: a named boundary or volume of the
-/// mesh, a point, segment, plane, box or ball. In a volume, box or ball it is
-/// zero.
-template <int dim>
-class FeatureDistance
-{
-public:
-  /// @throws Base::InputError  a boundary or volume that is not in the mesh
-  FeatureDistance(const Parameters::Feature  &feature,
-                  const DistributedMesh<dim> &mesh);
-  ~FeatureDistance();
-  FeatureDistance(FeatureDistance &&) noexcept;
+  /// Distance from points to one feature: a named boundary or volume of the
+  /// mesh, a point, segment, plane, box or ball. In a volume, box or ball it is
+  /// zero.
+  template <int dim>
+  class FeatureDistance
+  {
+  public:
+    /// @throws Base::InputError  a boundary or volume that is not in the mesh
+    FeatureDistance(const Parameters::Feature  &feature,
+                    const DistributedMesh<dim> &mesh);
+    ~FeatureDistance();
+    FeatureDistance(FeatureDistance &&) noexcept;
 
-  /// For a node of the mesh; zero for the nodes of a named volume.
-  ClosestPoint<dim>
-  closest_to_node(const NodalMesh<dim> &mesh, unsigned int node) const;
+    /// For a node of the mesh; zero for the nodes of a named volume.
+    ClosestPoint<dim>
+    closest_to_node(const NodalMesh<dim> &mesh, unsigned int node) const;
 
-private:
-  ClosestPoint<dim>
-  closest(const dealii::Point<dim> &point) const;
+  private:
+    ClosestPoint<dim>
+    closest(const dealii::Point<dim> &point) const;
 
-  class Facets;
-  Parameters::Feature     feature;
-  std::unique_ptr<Facets> facets; ///< of a boundary or volume
-  std::vector<bool>       inside; ///< nodes of a named volume
-};
+    class Facets;
+    Parameters::Feature     feature;
+    std::unique_ptr<Facets> facets; ///< of a boundary or volume
+    std::vector<bool>       inside; ///< nodes of a named volume
+  };
 
-/// Closest point of the segment from a to b.
-template <int dim>
-dealii::Point<dim>
-closest_on_segment(const dealii::Point<dim> &point,
-                   const dealii::Point<dim> &a,
-                   const dealii::Point<dim> &b);
+  /// Closest point of the segment from a to b.
+  template <int dim>
+  dealii::Point<dim>
+  closest_on_segment(const dealii::Point<dim> &point,
+                     const dealii::Point<dim> &a,
+                     const dealii::Point<dim> &b);
 
-/// Closest point of the triangle a, b, c in space.
-dealii::Point<3>
-closest_on_triangle(const dealii::Point<3> &point,
-                    const dealii::Point<3> &a,
-                    const dealii::Point<3> &b,
-                    const dealii::Point<3> &c);
+  /// Closest point of the triangle a, b, c in space.
+  dealii::Point<3>
+  closest_on_triangle(const dealii::Point<3> &point,
+                      const dealii::Point<3> &a,
+                      const dealii::Point<3> &b,
+                      const dealii::Point<3> &c);
 } // namespace Perimorph::Mesh

@@ -109,6 +109,12 @@ namespace Perimorph::Output
     std::map<std::string, double>
     companion_quantities() const;
 
+    /// (value - companion) / |companion|; none if the run lacks one of the
+    /// two, or if the companion's value is only round-off (below 1e-9) of the
+    /// largest quantity with the same unit.
+    std::optional<double>
+    companion_difference(const std::string &name) const;
+
     /// Peak memory [MB]: of the largest rank and of all ranks together.
     void
     set_peak_memory(const double max_mb, const double sum_mb);

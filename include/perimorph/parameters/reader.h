@@ -38,13 +38,15 @@ namespace Perimorph::Parameters
   /// runs the actions of add_parameter(); everything else becomes a message
   /// with file and line, and leaves the default. The origin of each entry is
   /// remembered in @p errors.
-  void
+  /// @return   false if it is no parameter file at all: missing, a folder,
+  ///           binary or without any 'set'; other checks are vain then
+  bool
   read_file(const std::string         &file_name,
             dealii::ParameterHandler  &prm,
             Base::InputErrorCollector &errors);
 
   /// The same for the content of a file; messages name it @p file_name.
-  void
+  bool
   read_text(const std::string         &text,
             const std::string         &file_name,
             dealii::ParameterHandler  &prm,

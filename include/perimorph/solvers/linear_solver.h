@@ -10,82 +10,81 @@
 
 namespace Perimorph::Solvers
 {
-using Fem::Vector;
-using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+  using Fem::Vector;
+  using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
-enum class LinearSolverKind
-{
-  automatic,
-  direct,
-  iterative
-};
+  enum class LinearSolverKind
+  {
+    automatic,
+    direct,
+    iterative
+  };
 
-enum class TangentKind
-{
-  automatic,
-  assembled,
-  matrix_free
-};
+  enum class TangentKind
+  {
+    automatic,
+    assembled,
+    matrix_free
+  };
 
-/// What the choice of the linear solver depends on.
-struct ProblemSize
-{
-  unsigned int dim              = 2;
-  std::size_t  n_dofs           = 0;
-  std::size_t  n_family_bonds   = 0; ///< of the correspondence model
-  std::size_t  n_particles      = 0;
-  bool         symmetric        = true;
-};
+  /// What the choice of the linear solver depends on.
+  struct ProblemSize
+  {
+    unsigned int dim            = 2;
+    std::size_t  n_dofs         = 0;
+    std::size_t  n_family_bonds = 0; ///< of the correspondence model
+    std::size_t  n_particles    = 0;
+    bool         symmetric      = true;
+  };
 
-/// A decision and the reason that is printed with it.
-struct LinearSolverChoice
-{
-  bool        direct;
-  bool        matrix_free;
-  std::string reason;
-};
+  /// A decision and the reason that is printed with it.
+  struct LinearSolverChoice
+  {
+    bool        direct;
+    bool        matrix_free;
+    std::string reason;
+  };
 
-/// Chooses between a direct solve of the assembled tangent and conjugate
-/// gradients, assembled or matrix-free, by the expected cost: factorisation
-/// grows like n^1.5 in 2D and n^2 in 3D with a large factor for wide families
-/// (toolchain.md, sections 3 and 4).
-LinearSolverChoice
-choose_linear_solver(LinearSolverKind   solver,
-                     TangentKind        tangent,
-                     const ProblemSize &size);
+  /// Chooses between a direct solve of the assembled tangent and conjugate
+  /// gradients, assembled or matrix-free, by the expected cost: factorisation
+  /// grows like n^1.5 in 2D and n^2 in 3D with a large factor for wide families
+  /// (toolchain.md, sections 3 and 4).
+  LinearSolverChoice
+  choose_linear_solver(LinearSolverKind   solver,
+                       TangentKind        tangent,
+                       const ProblemSize &size);
 
-/// Solves with one operator as often as wanted.
-class LinearSolver
-{
-public:
-  virtual ~LinearSolver() = default;
+  /// Solves with one operator as often as wanted.
+  class LinearSolver
+  {
+  public:
+    virtual ~LinearSolver() = default;
 
-  /// Solves A x = b with zero start value.
-  /// @return number of iterations (1 for a direct solver)
-  /// @throws Base::SolveError  breakdown or no convergence
-  virtual unsigned int
-  solve(Vector &x, const Vector &b) = 0;
-};
+    /// Solves A x = b with zero start value.
+    /// @return number of iterations (1 for a direct solver)
+    /// @throws Base::SolveError  breakdown or no convergence
+    virtual unsigned int
+    solve(Vector &x, const Vector &b) = 0;
+  };
 
-/// Sparse LU factorisation, computed once, by MUMPS through Trilinos' Amesos.
-/// @throws Base::SolveError  a singular matrix
-std::unique_ptr<LinearSolver>
-make_direct_solver(const Matrix &matrix);
+  /// Sparse LU factorisation, computed once, by MUMPS through Trilinos' Amesos.
+  /// @throws Base::SolveError  a singular matrix
+  std::unique_ptr<LinearSolver>
+  make_direct_solver(const Matrix &matrix);
 
-/// Conjugate gradients (GMRES if not symmetric) with smoothed-aggregation
-/// multigrid, rigid-body near-null space and Chebyshev smoother.
-/// @param apply  product with the operator
-/// @param preconditioner_matrix  spectrally equivalent assembled matrix: the
-///        operator itself or the plain finite-element stiffness
-/// @param tolerance  relative to the right-hand side
-/// @param on_iteration  called with the iteration and the relative residual
-template <int dim>
-std::unique_ptr<LinearSolver>
-make_iterative_solver(
-  std::function<void(Vector &, const Vector &)> apply,
-  const Matrix                                 &preconditioner_matrix,
-  const Fem::NodePartition<dim>                &partition,
-  bool                                          symmetric,
-  double                                        tolerance,
-  std::function<void(unsigned int, double)>     on_iteration);
+  /// Conjugate gradients (GMRES if not symmetric) with smoothed-aggregation
+  /// multigrid, rigid-body near-null space and Chebyshev smoother.
+  /// @param apply  product with the operator
+  /// @param preconditioner_matrix  spectrally equivalent assembled matrix: the
+  ///        operator itself or the plain finite-element stiffness
+  /// @param tolerance  relative to the right-hand side
+  /// @param on_iteration  called with the iteration and the relative residual
+  template <int dim>
+  std::unique_ptr<LinearSolver>
+  make_iterative_solver(std::function<void(Vector &, const Vector &)> apply,
+                        const Matrix                  &preconditioner_matrix,
+                        const Fem::NodePartition<dim> &partition,
+                        bool                           symmetric,
+                        double                         tolerance,
+                        std::function<void(unsigned int, double)> on_iteration);
 } // namespace Perimorph::Solvers

@@ -8,157 +8,161 @@
 
 namespace Perimorph::Peridynamics
 {
-namespace
-{
-/// A family with arbitrary bonds and an arbitrary (not classical) gradient.
-template <int dim>
-struct RandomFamily
-{
-  explicit RandomFamily(const unsigned int n_bonds)
-    : xi(n_bonds)
-    , g(n_bonds)
-    , w(n_bonds)
-    , eta(n_bonds)
+  namespace
   {
-    std::mt19937                           generator(7);
-    std::uniform_real_distribution<double> number(-1., 1.);
-    for (unsigned int j = 0; j < n_bonds; ++j)
+    /// A family with arbitrary bonds and an arbitrary (not classical) gradient.
+    template <int dim>
+    struct RandomFamily
+    {
+      explicit RandomFamily(const unsigned int n_bonds)
+        : xi(n_bonds)
+        , g(n_bonds)
+        , w(n_bonds)
+        , eta(n_bonds)
       {
+        std::mt19937                           generator(7);
+        std::uniform_real_distribution<double> number(-1., 1.);
+        for (unsigned int j = 0; j < n_bonds; ++j)
+          {
+            for (int d = 0; d < dim; ++d)
+              {
+                xi[j][d]  = number(generator);
+                g[j][d]   = number(generator);
+                eta[j][d] = 0.1 * number(generator);
+              }
+            w[j] = 1.1 + number(generator);
+          }
+      }
+
+      Family<dim>
+      family(const double kappa) const
+      {
+        return {static_cast<unsigned int>(xi.size()),
+                xi.data(),
+                g.data(),
+                w.data(),
+                kappa};
+      }
+
+      std::vector<dealii::Tensor<1, dim>> xi, g;
+      std::vector<double>                 w;
+      std::vector<dealii::Tensor<1, dim>> eta;
+    };
+
+    template <int dim>
+    dealii::Tensor<2, dim>
+    identity()
+    {
+      dealii::Tensor<2, dim> I;
+      for (int d = 0; d < dim; ++d)
+        I[d][d] = 1.;
+      return I;
+    }
+
+    template <int dim>
+    double
+    energy(const Family<dim>                   &family,
+           const Materials::Material<dim>      &law,
+           std::vector<dealii::Tensor<1, dim>> &eta)
+    {
+      const auto H = displacement_gradient(family, eta.data());
+      return law.energy_density(identity<dim>() + H) +
+             stabilization_energy(family, eta.data(), H);
+    }
+
+    template <int dim>
+    std::vector<dealii::Tensor<1, dim>>
+    forces(const Family<dim>                         &family,
+           const Materials::Material<dim>            &law,
+           const std::vector<dealii::Tensor<1, dim>> &eta)
+    {
+      const auto H = displacement_gradient(family, eta.data());
+      std::vector<dealii::Tensor<1, dim>> result(eta.size());
+      family_forces(family,
+                    eta.data(),
+                    H,
+                    law.first_piola_kirchhoff(identity<dim>() + H),
+                    result.data());
+      return result;
+    }
+
+    template <int dim>
+    void
+    expect_gradient_and_tangent(const double kappa)
+    {
+      RandomFamily<dim>                   data(8);
+      const auto                          family = data.family(kappa);
+      const Materials::LinearElastic<dim> law(
+        2.,
+        0.3,
+        dim == 2 ? Materials::PlaneState::plane_strain
+                 : Materials::PlaneState::three_dimensional);
+      const auto                 force = forces(family, law, data.eta);
+      const double               step  = 1e-4;
+      dealii::FullMatrix<double> tangent;
+      family_tangent(family, law.tangent(identity<dim>()), tangent);
+      ASSERT_EQ(tangent.m(), dim * 9u);
+      for (unsigned int j = 0; j < 8; ++j)
         for (int d = 0; d < dim; ++d)
           {
-            xi[j][d]  = number(generator);
-            g[j][d]   = number(generator);
-            eta[j][d] = 0.1 * number(generator);
+            auto plus = data.eta, minus = data.eta;
+            plus[j][d] += step;
+            minus[j][d] -= step;
+            const double slope =
+              (energy(family, law, plus) - energy(family, law, minus)) /
+              (2. * step);
+            EXPECT_NEAR(slope, force[j][d], 1e-7 * (1. + kappa));
+            const auto force_plus  = forces(family, law, plus);
+            const auto force_minus = forces(family, law, minus);
+            for (unsigned int k = 0; k < 8; ++k)
+              for (int e = 0; e < dim; ++e)
+                EXPECT_NEAR((force_plus[k][e] - force_minus[k][e]) /
+                              (2. * step),
+                            tangent(dim * (k + 1) + e, dim * (j + 1) + d),
+                            1e-8 * (1. + kappa));
           }
-        w[j] = 1.1 + number(generator);
-      }
-  }
-
-  Family<dim>
-  family(const double kappa) const
-  {
-    return {
-      static_cast<unsigned int>(xi.size()), xi.data(), g.data(), w.data(), kappa};
-  }
-
-  std::vector<dealii::Tensor<1, dim>> xi, g;
-  std::vector<double>                 w;
-  std::vector<dealii::Tensor<1, dim>> eta;
-};
-
-template <int dim>
-dealii::Tensor<2, dim>
-identity()
-{
-  dealii::Tensor<2, dim> I;
-  for (int d = 0; d < dim; ++d)
-    I[d][d] = 1.;
-  return I;
-}
-
-template <int dim>
-double
-energy(const Family<dim>                   &family,
-       const Materials::Material<dim>      &law,
-       std::vector<dealii::Tensor<1, dim>> &eta)
-{
-  const auto H = displacement_gradient(family, eta.data());
-  return law.energy_density(identity<dim>() + H) +
-         stabilization_energy(family, eta.data(), H);
-}
-
-template <int dim>
-std::vector<dealii::Tensor<1, dim>>
-forces(const Family<dim>                         &family,
-       const Materials::Material<dim>            &law,
-       const std::vector<dealii::Tensor<1, dim>> &eta)
-{
-  const auto H = displacement_gradient(family, eta.data());
-  std::vector<dealii::Tensor<1, dim>> result(eta.size());
-  family_forces(family,
-                eta.data(),
-                H,
-                law.first_piola_kirchhoff(identity<dim>() + H),
-                result.data());
-  return result;
-}
-
-template <int dim>
-void
-expect_gradient_and_tangent(const double kappa)
-{
-  RandomFamily<dim> data(8);
-  const auto        family = data.family(kappa);
-  const Materials::LinearElastic<dim> law(
-    2.,
-    0.3,
-    dim == 2 ? Materials::PlaneState::plane_strain :
-               Materials::PlaneState::three_dimensional);
-  const auto   force = forces(family, law, data.eta);
-  const double step  = 1e-4;
-  dealii::FullMatrix<double> tangent;
-  family_tangent(family, law.tangent(identity<dim>()), tangent);
-  ASSERT_EQ(tangent.m(), dim * 9u);
-  for (unsigned int j = 0; j < 8; ++j)
-    for (int d = 0; d < dim; ++d)
-      {
-        auto plus = data.eta, minus = data.eta;
-        plus[j][d] += step;
-        minus[j][d] -= step;
-        const double slope =
-          (energy(family, law, plus) - energy(family, law, minus)) /
-          (2. * step);
-        EXPECT_NEAR(slope, force[j][d], 1e-7 * (1. + kappa));
-        const auto force_plus  = forces(family, law, plus);
-        const auto force_minus = forces(family, law, minus);
-        for (unsigned int k = 0; k < 8; ++k)
-          for (int e = 0; e < dim; ++e)
-            EXPECT_NEAR((force_plus[k][e] - force_minus[k][e]) / (2. * step),
-                        tangent(dim * (k + 1) + e, dim * (j + 1) + d),
-                        1e-8 * (1. + kappa));
-      }
-  // Symmetric, and translations are free.
-  for (unsigned int r = 0; r < tangent.m(); ++r)
-    for (int d = 0; d < dim; ++d)
-      {
-        double row_sum = 0.;
-        for (unsigned int k = 0; k < 9; ++k)
-          row_sum += tangent(r, dim * k + d);
-        EXPECT_NEAR(row_sum, 0., 1e-11 * (1. + kappa));
-      }
-  for (unsigned int r = 0; r < tangent.m(); ++r)
-    for (unsigned int c = 0; c < r; ++c)
-      EXPECT_NEAR(tangent(r, c), tangent(c, r), 1e-11 * (1. + kappa));
-}
-} // namespace
-
-TEST(Correspondence, force_is_gradient_and_tangent_is_derivative)
-{
-  for (const double kappa : {0., 1., 30.})
-    {
-      expect_gradient_and_tangent<2>(kappa);
-      expect_gradient_and_tangent<3>(kappa);
+      // Symmetric, and translations are free.
+      for (unsigned int r = 0; r < tangent.m(); ++r)
+        for (int d = 0; d < dim; ++d)
+          {
+            double row_sum = 0.;
+            for (unsigned int k = 0; k < 9; ++k)
+              row_sum += tangent(r, dim * k + d);
+            EXPECT_NEAR(row_sum, 0., 1e-11 * (1. + kappa));
+          }
+      for (unsigned int r = 0; r < tangent.m(); ++r)
+        for (unsigned int c = 0; c < r; ++c)
+          EXPECT_NEAR(tangent(r, c), tangent(c, r), 1e-11 * (1. + kappa));
     }
-}
+  } // namespace
 
-TEST(Correspondence, affine_field_has_no_stabilization_energy)
-{
-  // A gradient that is exact for affine fields: w K^-1 xi.
-  RandomFamily<2>      data(6);
-  dealii::Tensor<2, 2> K;
-  for (unsigned int j = 0; j < 6; ++j)
-    K += data.w[j] * outer_product(data.xi[j], data.xi[j]);
-  for (unsigned int j = 0; j < 6; ++j)
-    data.g[j] = data.w[j] * (invert(K) * data.xi[j]);
-  dealii::Tensor<2, 2> gradient;
-  gradient[0][0] = 0.2;
-  gradient[0][1] = -0.5;
-  gradient[1][0] = 0.3;
-  for (unsigned int j = 0; j < 6; ++j)
-    data.eta[j] = gradient * data.xi[j];
-  const auto family = data.family(5.);
-  const auto H      = displacement_gradient(family, data.eta.data());
-  EXPECT_NEAR((H - gradient).norm(), 0., 1e-13);
-  EXPECT_NEAR(stabilization_energy(family, data.eta.data(), H), 0., 1e-25);
-}
+  TEST(Correspondence, force_is_gradient_and_tangent_is_derivative)
+  {
+    for (const double kappa : {0., 1., 30.})
+      {
+        expect_gradient_and_tangent<2>(kappa);
+        expect_gradient_and_tangent<3>(kappa);
+      }
+  }
+
+  TEST(Correspondence, affine_field_has_no_stabilization_energy)
+  {
+    // A gradient that is exact for affine fields: w K^-1 xi.
+    RandomFamily<2>      data(6);
+    dealii::Tensor<2, 2> K;
+    for (unsigned int j = 0; j < 6; ++j)
+      K += data.w[j] * outer_product(data.xi[j], data.xi[j]);
+    for (unsigned int j = 0; j < 6; ++j)
+      data.g[j] = data.w[j] * (invert(K) * data.xi[j]);
+    dealii::Tensor<2, 2> gradient;
+    gradient[0][0] = 0.2;
+    gradient[0][1] = -0.5;
+    gradient[1][0] = 0.3;
+    for (unsigned int j = 0; j < 6; ++j)
+      data.eta[j] = gradient * data.xi[j];
+    const auto family = data.family(5.);
+    const auto H      = displacement_gradient(family, data.eta.data());
+    EXPECT_NEAR((H - gradient).norm(), 0., 1e-13);
+    EXPECT_NEAR(stabilization_energy(family, data.eta.data(), H), 0., 1e-25);
+  }
 } // namespace Perimorph::Peridynamics

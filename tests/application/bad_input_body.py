@@ -1,0 +1,306 @@
+"""Bad input, second part: regions, supports, loads, quantities."""
+
+from bad_input_files import row
+from case_files import (BOND_BASED, NO_SUPPORTS, QUARTER_PLATE, SOLID,
+                        parameter_text, square)
+
+AROUND = "Peridynamics/around"
+CORE = "Peridynamics/core size"
+WIDTH = "Peridynamics/blending width"
+RATIO = "Peridynamics/horizon ratio"
+HORIZON = "Peridynamics/horizon"
+SYMMETRY = "Boundary conditions/symmetry"
+DISPLACEMENT = "Boundary conditions/displacement"
+TRACTION = "Boundary conditions/traction"
+PRESSURE = "Boundary conditions/pressure"
+BODY = "Boundary conditions/body force"
+POINT_DISPLACEMENT = "Boundary conditions/point displacement"
+POINT_FORCE = "Boundary conditions/point force"
+REMOVE = "Boundary conditions/remove rigid motion"
+CONCENTRATION = "Quantities/stress concentration"
+NOMINAL = "Quantities/nominal stress"
+
+# The cells at the right are flat, so that a particle there has all its
+# neighbours in one line. (With other cells a horizon of at least the spacing,
+# which is checked, always holds enough of them.)
+FLAT = {AROUND: "right", RATIO: "1", "Mesh/file": "flat.msh",
+        "Mesh/geometry parameters": None}
+FLAT_MESH = {"flat.msh": square(transform=lambda x, y: (
+    x if x < 1. else 0.875 + 1e-8, y))}
+
+REGIONS = [
+    row("no around", ["'Peridynamics / around'", "found nothing",
+                      "bottom, left, right, top"], {AROUND: None}),
+    row("around an unknown boundary", ["'Peridynamics / around'", "'rigth'",
+                                       "did you mean 'right'"],
+        {AROUND: "rigth"}),
+    row("around an unknown volume", ["'Peridynamics / around'", "'domian'",
+                                     "did you mean 'domain'"],
+        {AROUND: "volume domian"}),
+    row("around with too few numbers", ["'Peridynamics / around'", "point",
+                                        "x y"], {AROUND: "point 0.5"}),
+    row("around with a 3D point in 2D", ["'Peridynamics / around'", "x y"],
+        {AROUND: "point 0.5 0.5 0.5"}),
+    row("negative ball", ["'Peridynamics / around'", "radius"],
+        {AROUND: "ball 0.5 0.5 -1"}),
+    row("empty region", ["'Peridynamics / core size'",
+                         "without any node", "contains nodes"],
+        {AROUND: "point 7 7", CORE: "0", WIDTH: "0.1"}),
+    row("region that swallows the body", [
+        "'Peridynamics / core size'", "swallows the whole body",
+        "leaves finite elements", "Mode = peridynamics"], {CORE: "3"}),
+    row("region of the whole volume", ["swallows the whole body"],
+        {AROUND: "volume domain"}),
+    row("core size without number", ["'Peridynamics / core size'", "'big'",
+                                     "horizons"], {CORE: "big"}),
+    row("negative core size", ["'Peridynamics / core size'", "-1"],
+        {CORE: "-1"}),
+    row("automatic core size", ["'Peridynamics / core size'", "'automatic'"],
+        {CORE: "automatic"}),
+    row("negative blending width", ["'Peridynamics / blending width'", "-1"],
+        {WIDTH: "-1 horizons"}),
+    row("horizon smaller than the spacing", [
+        "'Peridynamics / horizon'", "0.05, smaller than the spacing 0.125",
+        "at least"], {HORIZON: "0.05"}),
+    row("horizon smaller than the spacing, bond based", [
+        "'Peridynamics / horizon'", "0.05, smaller than the spacing 0.125",
+        "at least"], BOND_BASED, {HORIZON: "0.05"}),
+    row("too few neighbours", [
+        "particle at (0.875 ", "neighbours, all in one line",
+        "at least 2 independent bonds", "larger horizon ratio"], FLAT,
+        late=True, files=FLAT_MESH),
+    row("too few neighbours, classical", [
+        "particle at (0.875 ", "neighbours, all in one line",
+        "at least 2 independent bonds", "larger horizon ratio"], FLAT,
+        {"Peridynamics/coupling": "force blending"},
+        late=True, files=FLAT_MESH),
+]
+
+CONDITIONS = [
+    row("symmetry: unknown boundary", [
+        "'Boundary conditions / symmetry'", "'lft'", "did you mean 'left'",
+        "bottom, left, right, top"], {SYMMETRY: "lft, bottom"}),
+    row("displacement: unknown boundary", [
+        "'Boundary conditions / displacement'", "'topp'",
+        "did you mean 'top'"], {DISPLACEMENT: "topp: y = 0"}),
+    row("traction: unknown boundary", [
+        "'Boundary conditions / traction'", "'rigth'",
+        "did you mean 'right'"], {TRACTION: "rigth: x = 1"}),
+    row("pressure: unknown boundary", [
+        "'Boundary conditions / pressure'", "'hole'",
+        "it has: bottom, left, right, top"], {PRESSURE: "hole: 5"}),
+    row("body force: unknown volume", [
+        "'Boundary conditions / body force'", "'domian'",
+        "did you mean 'domain'"], {BODY: "volume domian: y = -1"}),
+    row("body force without 'volume'", [
+        "'Boundary conditions / body force'", "'domain: y = -1'",
+        "Did you mean 'volume domain"], {BODY: "domain: y = -1"}),
+    row("unknown component", [
+        "'Boundary conditions / traction'", "component 'z'", "x, y"],
+        {TRACTION: "right: z = 1"}),
+    row("component without name", [
+        "'Boundary conditions / traction'", "without a name",
+        "NAME: component"], {TRACTION: "x = 1"}),
+    row("no supports and no loads", [
+        "'Boundary conditions'", "neither supports nor loads",
+        "at least one"], NO_SUPPORTS, {TRACTION: None}),
+    row("no supports and no loads, rigid motion kept", [
+        "'Boundary conditions'", "no support against translation along",
+        "'remove rigid motion = true'"], NO_SUPPORTS,
+        {TRACTION: None, REMOVE: "false"}),
+    row("pushed unsupported body", [
+        "'Boundary conditions'", "loads that push the body",
+        "translation along (1, 0)", "loads in balance"], NO_SUPPORTS),
+    row("pushed unsupported body, rigid motion kept", [
+        "'Boundary conditions'", "no support against translation along",
+        "rotation", "'remove rigid motion = true'"], NO_SUPPORTS,
+        {REMOVE: "false"}),
+    row("turned unsupported body", [
+        "'Boundary conditions'", "loads that push the body", "rotation"],
+        NO_SUPPORTS, {TRACTION: "right: y = 1; left: y = -1"}),
+    row("pushed along a free direction", [
+        "'Boundary conditions'", "loads that push the body",
+        "translation along (0, 1)"],
+        {SYMMETRY: "left", TRACTION: "right: y = 1"}),
+    row("one direction without support, rigid motion kept", [
+        "'Boundary conditions'", "no support against",
+        "translation along (0, 1)"], {SYMMETRY: "left", REMOVE: "false"}),
+    row("pushed 3D body, rigid motion kept", [
+        "'Boundary conditions'", "no support against translation along",
+        "rotation", "'remove rigid motion = true'"], SOLID, NO_SUPPORTS,
+        {REMOVE: "false"}),
+    row("contradicting supports", [
+        "contradicting supports", "x = 0 from the symmetry of 'left' but 0.1",
+        "displacement of 'top'", "at the node (0 1)", "one value per node"],
+        {DISPLACEMENT: "top: x = 0.1"}),
+    row("contradicting supports in time", [
+        "contradicting supports", "t = 1"],
+        {DISPLACEMENT: "top: x = 0.1*t*(t - 0.5)",
+         "Load steps/number of steps": "2"}),
+    row("symmetry on a curved boundary", [
+        "'Boundary conditions / symmetry'", "'hole'", "mean normal",
+        "a plane boundary"], QUARTER_PLATE, {SYMMETRY: "left, hole"}),
+    row("symmetry on a slanted boundary", [
+        "'Boundary conditions / symmetry'", "'right'", "mean normal",
+        "normal to a coordinate axis"],
+        {SYMMETRY: "right, bottom", "Mesh/file": "mesh.msh",
+         "Mesh/geometry parameters": None},
+        files={"mesh.msh": square(transform=lambda x, y: (
+            x * (1. + 0.3 * y), y))}),
+    row("not a number in a displacement", [
+        "'Boundary conditions / displacement'", "'sqrt(x - 0.5)'",
+        "not a number at (0, 1)", "a finite value everywhere"],
+        {DISPLACEMENT: "top: y = sqrt(x - 0.5)"}),
+    row("not a number in a constant expression", [
+        "'Boundary conditions / traction'", "'0/0'", "not a number",
+        "a finite value"], {TRACTION: "right: x = 0/0"}),
+    row("infinite pressure", [
+        "'Boundary conditions / pressure'", "'1/t^0/0'", "infinite"],
+        {PRESSURE: "top: 1/t^0/0"}),
+    row("not a number in a body force", [
+        "'Boundary conditions / body force'", "'log(y - 2)'",
+        "not a number"], {BODY: "y = log(y - 2)"}),
+    row("not a number in a point force", [
+        "'Boundary conditions / point force'", "'1/x'", "infinite"],
+        {POINT_FORCE: "0 1: y = 1/x"}),
+    row("not a number at a later time", [
+        "'Boundary conditions / traction'", "not a number", "t = 1"],
+        {TRACTION: "right: x = sqrt(0.75 - t)",
+         "Load steps/number of steps": "2"}),
+    row("unknown variable", [
+        "'Boundary conditions / traction'", "the unknown name 'u'",
+        "x, y, z, t", "Expressions / constants"],
+        {TRACTION: "right: x = 2*u"}),
+    row("unknown constant", [
+        "'Boundary conditions / traction'", "'strech'",
+        "Did you mean 'stretch'"],
+        {TRACTION: "right: x = strech", "Expressions/constants":
+         "stretch = 2"}),
+    row("syntax error in an expression", [
+        "'Boundary conditions / traction'", "'2*'", "one expression in"],
+        {TRACTION: "right: x = 2*"}),
+    row("parenthesis missing", [
+        "'Boundary conditions / traction'", "'right: x = (2'",
+        "as many ')' as '('"], {TRACTION: "right: x = (2"}),
+    row("point displacement outside", [
+        "'Boundary conditions / point displacement'", "(3 0)",
+        "away from the body", "nearest node is at (1 0)"],
+        {POINT_DISPLACEMENT: "3 0: y = 0"}),
+    row("point force outside", [
+        "'Boundary conditions / point force'", "(3 0)",
+        "away from the body", "nearest node is at (1 0)"],
+        {POINT_FORCE: "3 0: y = 1"}),
+]
+
+
+def data(text):
+    """A reference file beside the parameter file, or none."""
+    return dict(files={"data.csv": text})
+
+
+RING = {"Reference/data": "ring: data.csv"}
+PLACE = ["reference file", "data.csv"]
+
+QUANTITIES = [
+    row("stress concentration: unknown boundary", [
+        "'Quantities / stress concentration'", "'rihgt'",
+        "did you mean 'right'"], {CONCENTRATION: "rihgt"}),
+    row("reaction: unknown boundary", [
+        "'Quantities / reaction'", "'lef'", "did you mean 'left'"],
+        {"Quantities/reaction": "lef"}),
+    row("nominal stress: unknown boundary", [
+        "'Quantities / nominal stress'", "'lef'", "did you mean 'left'"],
+        {CONCENTRATION: "right", NOMINAL: "reaction of lef"}),
+    row("nominal stress missing", [
+        "'Quantities / nominal stress'", "found nothing",
+        "'reaction of NAME'"], {CONCENTRATION: "top", TRACTION: None,
+                                DISPLACEMENT: "right: x = 0.1"}),
+    row("nominal stress zero", [
+        "'Quantities / nominal stress'", "found '0'", "other than 0"],
+        {CONCENTRATION: "top", NOMINAL: "0"}),
+    row("nominal stress a word", [
+        "'Quantities / nominal stress'", "found 'high'", "a number"],
+        {CONCENTRATION: "top", NOMINAL: "high"}),
+    row("point outside", [
+        "'Quantities / point'", "outside the mesh", "nearest node"],
+        {"Quantities/point": "far: 3 0"}),
+    row("line outside", [
+        "'Quantities / line'", "outside the mesh", "nearest node"],
+        {"Quantities/line": "far: 0 0 to 3 0, 11 points"}),
+    row("circle outside", [
+        "'Quantities / circle'", "outside the mesh", "nearest node"],
+        {"Quantities/circle": "ring: center 0 0, radius 0.5, from 0 to 180, "
+         "11 points"}),
+    row("deflection outside", [
+        "'Quantities / deflection'", "outside the mesh"],
+        {"Quantities/deflection": "tip: 3 0, y"}),
+    row("deflection without component", [
+        "'Quantities / deflection'", "without a component", "x, y"],
+        {"Quantities/deflection": "tip: 1 0"}),
+    row("stress ratio with a wrong component", [
+        "'Quantities / stress ratio'", "xx, yy, zz, xy"],
+        {"Quantities/stress ratio": "root: 1 0, xz"}),
+    row("line with a slip", [
+        "'Quantities / line'", "'pints'", "Did you mean 'points'"],
+        {"Quantities/line": "l: 0 0 to 1 0, 11 pints"}),
+    row("circle without radius", [
+        "'Quantities / circle'", "without 'radius'"],
+        {"Quantities/circle": "ring: center 0.5 0.5, 11 points"}),
+    row("name that is no word", [
+        "'Quantities / point'", "letters, digits"],
+        {"Quantities/point": "a b: 0 0"}),
+    row("reference for an unknown quantity", [
+        "'Reference / values'", "'stress_concentraton'",
+        "did you mean 'stress_concentration'"],
+        {CONCENTRATION: "top", NOMINAL: "1",
+         "Reference/values": "stress_concentraton = 3"}),
+    row("reference that is no number", [
+        "'Reference / values'", "'three'", "a number"],
+        {"Reference/values": "strain_energy = three"}),
+    row("exact displacement not a number", [
+        "'Reference / displacement'", "'1/x'", "infinite at (0,"],
+        {"Reference/displacement": "x = 1/x, y = 0"}),
+    row("reference data file missing", PLACE + ["no readable file"], RING),
+    row("reference data with a bad column", PLACE + [
+        "'szx'", "Did you mean 'sxx'"], RING, **data("x,y,szx\n0,0,1\n")),
+    row("reference data without coordinates", PLACE + [
+        "the columns", "x, y"], RING, **data("r,sxx\n0,1\n")),
+    row("reference data that is no number", PLACE + [
+        "data.csv:2", "'one' in column 'sxx'", "a number"], RING,
+        **data("x,y,sxx\n0,0,one\n")),
+    row("reference data with a short row", PLACE + [
+        "data.csv:3", "2 cells", "3 cells"], RING,
+        **data("x,y,sxx\n0,0,1\n0,1\n")),
+    row("reference data empty", PLACE, RING, **data("")),
+    row("reference data outside", [
+        "'Reference / data'", "(3", "outside the mesh"], RING,
+        **data("x,y,sxx\n3,0,1\n")),
+    row("folder as reference data", PLACE, RING, folders=["data.csv"]),
+]
+
+# Several errors of one file are reported together.
+PARAMETER_ERRORS = {
+    "Mode": "couplet", "Material/Young's modulus": "-1",
+    "Peridynamics/horizon ratio": "two", "Load steps/end time": "0",
+    "Quantities/nominal stress": "high", "Boundary conditions/tracton": "x",
+    "Boundary conditions/traction": "right: x = 2*u"}
+MESH_ERRORS = {
+    AROUND: "hol", SYMMETRY: "lft, bottom", DISPLACEMENT: "topp: x = 0",
+    TRACTION: "rigth: x = 1", PRESSURE: "hole: 1",
+    POINT_FORCE: "3 0: x = 1", "Quantities/reaction": "lef",
+    "Quantities/point": "far: 3 0", "Material/by volume":
+    "domian: Young's modulus = 3"}
+TOGETHER = [
+    row("many errors in the parameters", [
+        "'couplet'", "found -1", "'two'", "'Load steps / end time'", "'high'",
+        "'tracton'", "'u'"], PARAMETER_ERRORS, n_errors=7),
+    row("many errors in mesh names", [
+        "'hol'", "'lft'", "'topp'", "'rigth'", "'hole'", "'domian'"],
+        MESH_ERRORS, n_errors=6),
+    row("many errors in file and command line", [
+        "'couplet'", "'horizon rati'", "'Dimensio'", "'three'"],
+        {"Mode": "couplet", "Dimensio": "2"}, n_errors=4,
+        options=["--set", "Peridynamics/horizon rati=3", "--set",
+                 "Peridynamics/horizon=three"]),
+]
+QUANTITIES += TOGETHER

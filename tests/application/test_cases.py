@@ -1,0 +1,283 @@
+"""Every shipped parameter file gives its number; options of the program."""
+
+import csv
+import os
+import re
+import xml.etree.ElementTree as ElementTree
+
+from case_files import parameter_text
+from harness import (PARAMETER_FILES, Failures, Runner, finish,
+                     parse_arguments)
+
+# file -> (overrides, {quantity: largest relative error against the Reference
+# entry of the file}, {quantity: largest value}). The origin of each reference
+# is in the file; tolerances are those stated there or tighter, about twice
+# what was measured. Tables "_error" are relative L2 errors themselves.
+CASES = {
+    "cantilever_small_strain.prm":
+    ([], {"tip_deflection": 1e-3}, {"relative_displacement_error": 5e-3,
+                                    "relative_energy_error": 0.07}),
+    "double_edge_notch_3d.prm":
+    ([], {"midplane_stress_ratio": 0.015, "face_stress_ratio": 0.015},
+     {"root_syy_error": 0.02, "ligament_syy_error": 0.02}),
+    "elliptical_hole.prm":
+    ([], {"stress_concentration": 0.03, "tip_displacement_x": 5e-3,
+          "pole_displacement_y": 1e-3},
+     {"ligament_displacement_ux_error": 5e-3,
+      "ligament_stress_syy_error": 0.05}),
+    "kirsch_infinite_plate.prm":
+    ([], {"stress_concentration": 0.01},
+     {"relative_displacement_error": 4e-4, "relative_energy_error": 6e-3,
+      "ring_stt_error": 8e-3}),
+    "patch_test.prm":
+    ([], {}, {"relative_displacement_error": 1e-10,
+              "relative_energy_error": 1e-10,
+              "relative_maximum_error": 1e-10}),
+    "plate_with_hole.prm":
+    ([], {"stress_concentration": 0.01, "equator_displacement_y": 1e-3,
+          "pole_displacement_x": 5e-4},
+     {"ring_stt_error": 5e-3, "ring_ux_error": 1e-3}),
+    "plate_with_hole_bond_based.prm":
+    ([], {"stress_concentration": 0.01, "equator_displacement_y": 4e-3,
+          "pole_displacement_x": 2e-3},
+     {"ring_stt_error": 5e-3, "ring_ux_error": 2e-3}),
+    "spherical_cavity.prm":
+    ([], {"stress_concentration": 0.02, "equator_stress_zz": 0.02},
+     {"relative_displacement_error": 1e-3, "relative_energy_error": 8e-3,
+      "equator_szz_error": 0.01}),
+    # coarse: 729 nodes instead of 3906
+    "spherical_cavity_bond_based.prm":
+    (["Mesh/geometry parameters=n = 8, nr = 9"],
+     {"stress_concentration": 0.06},
+     {"relative_displacement_error": 4e-3, "relative_energy_error": 0.02}),
+    "strip_with_hole.prm":
+    ([], {"stress_concentration": 0.01, "equator_displacement_y": 3e-3,
+          "pole_displacement_x": 1e-3},
+     {"load_axis_ux_error": 5e-4, "equator_uy_error": 2e-3}),
+    "uniaxial_plate.prm":
+    ([], {"inside_displacement_x": 1e-9, "inside_displacement_y": 1e-9,
+          "inside_stress_xx": 1e-9},
+     {"relative_displacement_error": 1e-9, "relative_energy_error": 1e-9}),
+}
+
+KEYS = {
+    "": ["case", "mode", "status", "quantities", "counts", "checks",
+         "timings", "peak_memory_mb"],
+    "counts": ["nodes", "dofs", "cells", "active_cells", "particles", "bonds",
+               "broken_bonds", "newton_iterations", "linear_iterations"],
+    "checks": ["ghost_force", "imbalance", "energy_balance"],
+    "timings": ["total", "setup", "assembly", "linear_solver", "damage",
+                "output"],
+}
+FILES = ["results.json", "parameters.prm", "log.txt", "load_steps.csv",
+         "newton.csv", "solution.pvd", "particles.pvd"]
+NODAL_FIELDS = {"displacement", "stress", "alpha", "horizon"}
+
+
+def check_contract(failures, results):
+    for section, names in KEYS.items():
+        part = results[section] if section else results
+        for name in names:
+            failures.check(name in part, "results.json lacks %s/%s" %
+                           (section, name))
+    for name, entry in results["quantities"].items():
+        failures.check(re.fullmatch(r"[a-z][a-z0-9_]*", name),
+                       "%r is not in snake_case" % name)
+        failures.check(
+            {"value", "unit", "reference", "relative_error"} <= set(entry),
+            "%s lacks a key" % name)
+    failures.check(results["status"] == "converged",
+                   "status " + results["status"])
+    failures.check(results["counts"]["newton_iterations"] == 1,
+                   "more than one Newton iteration for a linear problem")
+    failures.check_below("ghost_force", results["checks"]["ghost_force"],
+                         1e-10)
+    failures.check_below("imbalance", results["checks"]["imbalance"], 1e-9)
+
+
+def check_numbers(failures, results, errors, limits):
+    quantities = results["quantities"]
+    for name, limit in errors.items():
+        entry = quantities[name]
+        reference, value = entry["reference"], entry["value"]
+        if failures.check(reference is not None, name + " has no reference"):
+            failures.check_close(name, value, reference, limit)
+            error = abs(value - reference) / abs(reference)
+            failures.check(
+                abs(error - entry["relative_error"]) <= 1e-12,
+                name + ": relative_error is not that of its reference")
+    for name, limit in limits.items():
+        failures.check_below(name, quantities[name]["value"], limit)
+
+
+def check_collection(failures, outcome, name, fields):
+    """A .pvd and the .vtu files that it names."""
+    sets = ElementTree.parse(outcome.path(name)).findall(".//DataSet")
+    failures.check(sets, name + " names no file")
+    times = [float(entry.get("timestep")) for entry in sets]
+    failures.check(times == sorted(times), name + " has times out of order")
+    for entry in sets:
+        path = outcome.path(entry.get("file"))
+        if not failures.check(os.path.exists(path), path + " is missing"):
+            continue
+        with open(path, "rb") as file:
+            head = file.read().split(b"<AppendedData")[0]
+        found = set(
+            name.decode()
+            for name in re.findall(rb'<DataArray[^>]*Name="([^"]*)"', head))
+        failures.check(fields <= found, "%s lacks %s" % (entry.get("file"),
+                                                         fields - found))
+
+
+def check_files(failures, outcome):
+    for name in FILES:
+        failures.check(os.path.exists(outcome.path(name)),
+                       name + " is missing")
+    check_collection(failures, outcome, "solution.pvd", NODAL_FIELDS)
+    check_collection(failures, outcome, "particles.pvd",
+                     {"displacement", "alpha", "horizon"})
+    for name in sorted(os.listdir(outcome.folder)):
+        if name.endswith(".csv"):
+            with open(outcome.path(name)) as file:
+                rows = list(csv.reader(file))
+            failures.check(len(rows) > 1, name + " is empty")
+            for row in rows[1:]:
+                failures.check(
+                    len(row) == len(rows[0]) and
+                    all(float(cell) == float(cell) for cell in row),
+                    "%s: bad row %s" % (name, row))
+    with open(outcome.path("log.txt")) as file:
+        failures.check("Newton iteration 1" in file.read(),
+                       "log.txt lacks the Newton iterations")
+
+
+def check_cases(failures, runner, selected):
+    shipped = sorted(
+        name for name in os.listdir(PARAMETER_FILES) if name.endswith(".prm"))
+    if selected("table of cases"):
+        failures.begin("table of cases")
+        failures.check(shipped == sorted(CASES), "not the shipped files: %s" %
+                       sorted(set(shipped) ^ set(CASES)))
+        failures.end()
+    for name in filter(selected, shipped):
+        overrides, errors, limits = CASES[name]
+        failures.begin(name)
+        outcome = runner.run_case(name, overrides)
+        if failures.check(outcome.code == 0,
+                          "exit code %d" % outcome.code):
+            failures.check(outcome.stderr == "", "something on stderr")
+            failures.check_clean(outcome.text)
+            results = outcome.results()
+            check_contract(failures, results)
+            check_numbers(failures, results, errors, limits)
+            check_files(failures, outcome)
+        failures.end(outcome)
+        if selected(name + " --validate"):
+            failures.begin(name + " --validate")
+            outcome = runner.run(
+                [os.path.join(PARAMETER_FILES, name), "--validate"])
+            failures.check(outcome.code == 0,
+                           "exit code %d" % outcome.code)
+            failures.check("The input is valid." in outcome.stdout,
+                           "does not say that the input is valid")
+            failures.check(
+                os.listdir(os.path.dirname(outcome.folder)) == [],
+                "something was written")
+            failures.end(outcome)
+
+
+def same_numbers(first, second):
+    return first["quantities"] == second["quantities"]
+
+
+def check_printed_parameters(failures, runner):
+    """Parameters printed, read again and printed are the same, and so are the
+    results of a run with them and with the copy that a run saves."""
+    failures.begin("--print-parameters")
+    folder = runner.new_folder()
+
+    def write(name, text):
+        with open(os.path.join(folder, name), "w") as file:
+            file.write(text)
+
+    write("case.prm", parameter_text())
+    first = runner.run(["case.prm", "--print-parameters"], 1, folder)
+    write("printed.prm", first.stdout)
+    second = runner.run(["printed.prm", "--print-parameters"], 1, folder)
+    failures.check(first.code == 0 and first.stdout == second.stdout,
+                   "another text when read again")
+    failures.check("# m = horizon / local spacing" in first.stdout,
+                   "no comments")
+    alone = runner.run(["--print-parameters"], 1, folder)
+    failures.check(
+        alone.code == 0 and "set Mode" in alone.stdout and
+        alone.stdout != first.stdout, "no defaults without a file")
+    runs = [
+        runner.run([name, "--output", output], 1, folder, output)
+        for name, output in (("case.prm", "one"), ("printed.prm", "two"),
+                             ("one/parameters.prm", "three"))
+    ]
+    if failures.check(all(run.code == 0 for run in runs), "a run failed"):
+        results = [run.results() for run in runs]
+        failures.check(same_numbers(results[0], results[1]),
+                       "other results with the printed parameters")
+        failures.check(same_numbers(results[0], results[2]),
+                       "other results with the saved parameters")
+    failures.end(first)
+
+
+def check_options(failures, runner):
+    for words, expected in ((["--help"], "Usage: perimorph FILE.prm"),
+                            (["-h"], "Exit codes: 0 done, 2 bad input"),
+                            (["--version"], "Perimorph 0.")):
+        for ranks in (1, 2):
+            failures.begin("%s on %d" % (words[0], ranks))
+            outcome = runner.run(words, ranks)
+            failures.check(outcome.code == 0, "exit code %d" % outcome.code)
+            failures.check(outcome.stdout.count(expected) == 1,
+                           "%r is not there once" % expected)
+            failures.check(outcome.stderr == "", "something on stderr")
+            failures.end(outcome)
+
+
+def check_failed_solve(failures, runner):
+    """A solve that cannot reach its tolerance: exit code 3, the reason, the
+    history, and the state said in results.json."""
+    for ranks in (1, 3):
+        failures.begin("failed solve on %d" % ranks)
+        folder = runner.new_folder()
+        with open(os.path.join(folder, "case.prm"), "w") as file:
+            file.write(parameter_text({
+                "Solver/Newton tolerance": "1e-14",
+                "Solver/maximum Newton iterations": "1"}))
+        outcome = runner.run(["case.prm", "--output", "out"], ranks, folder)
+        failures.check(outcome.code == 3, "exit code %d" % outcome.code)
+        for fragment in ("Error: the solve failed: load step 1 (t = 1)",
+                         "relative residuals 1 ", "'out'"):
+            failures.check(outcome.stderr.count(fragment) == 1,
+                           "the message lacks %r" % fragment)
+        failures.check_clean(outcome.text)
+        failures.check(outcome.results()["status"] == "failed",
+                       "results.json does not say it")
+        failures.end(outcome)
+
+
+def main():
+    arguments = parse_arguments(__doc__)
+    runner = Runner(arguments)
+    failures = Failures()
+
+    def selected(name):
+        return not arguments.only or re.search(arguments.only, name)
+
+    check_cases(failures, runner, selected)
+    for name, check in (("options", check_options),
+                        ("--print-parameters", check_printed_parameters),
+                        ("failed solve", check_failed_solve)):
+        if selected(name):
+            check(failures, runner)
+    finish(failures)
+
+
+if __name__ == "__main__":
+    main()

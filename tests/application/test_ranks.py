@@ -1,0 +1,172 @@
+"""The same case on 1, 2 and 3 ranks: the same results to round-off."""
+
+import csv
+import glob
+import os
+import re
+
+from harness import Failures, Runner, finish, parse_arguments
+
+TOLERANCE = 1e-10  # relative
+FLOOR = 1e-12  # of the largest quantity of the same unit
+
+PLATE = "Mesh/geometry parameters=nt = 16, nr = 28"
+BOND_PLATE = "Mesh/geometry parameters=nt = 8, nr = 20"
+CAVITY = "Mesh/geometry parameters=n = 8, nr = 9"
+# An iterative solver stops at its tolerance: it must be below the differences
+# that are looked for.
+ITERATIVE = ["Solver/linear solver=iterative", "Solver/linear tolerance=1e-13"]
+WITH_REACTIONS = "Quantities/reaction=left, bottom"
+
+# name, parameter file, overrides, ghost forces are expected
+CASES = [
+    ("plate with hole", "plate_with_hole.prm", [PLATE, WITH_REACTIONS], False),
+    ("bond based", "plate_with_hole_bond_based.prm", [BOND_PLATE], False),
+    ("patch test", "patch_test.prm", [], False),
+    ("cantilever", "cantilever_small_strain.prm",
+     ["Quantities/reaction=left"], False),
+    ("spherical cavity", "spherical_cavity.prm",
+     [CAVITY, "Solver/linear tolerance=1e-13"], False),
+    ("spherical cavity, bond based", "spherical_cavity_bond_based.prm",
+     [CAVITY], False),
+    ("uniaxial plate", "uniaxial_plate.prm", [], False),
+    ("strip with hole", "strip_with_hole.prm",
+     ["Mesh/geometry parameters=nt = 12, nr = 16, ne = 16"], False),
+    ("load steps", "strip_with_hole.prm",
+     ["Mesh/geometry parameters=nt = 8, nr = 10, ne = 8",
+      "Load steps/number of steps=3",
+      "Boundary conditions/displacement=right: x = 0.1*t^2"], False),
+    ("peridynamics only", "plate_with_hole.prm",
+     [PLATE, "Mode=peridynamics",
+      "Quantities/compare with finite elements=false"], False),
+    ("finite elements only", "plate_with_hole.prm",
+     [PLATE, "Mode=finite elements"], False),
+    ("energy blending", "plate_with_hole.prm",
+     [PLATE, "Peridynamics/coupling=energy blending"], True),
+    ("force blending", "plate_with_hole.prm",
+     [PLATE, "Peridynamics/coupling=force blending"], True),
+    ("iterative, matrix-free", "plate_with_hole.prm",
+     [PLATE, "Solver/tangent=matrix-free"] + ITERATIVE, False),
+    ("iterative, assembled", "plate_with_hole.prm",
+     [PLATE, "Solver/tangent=assembled"] + ITERATIVE, False),
+    ("iterative, bond based", "plate_with_hole_bond_based.prm",
+     [BOND_PLATE] + ITERATIVE, False),
+]
+
+
+def quantities(results):
+    """name -> (unit, value); positions have a scale of their own."""
+    values = {}
+    companion = dict(results["companion"])
+    tables = {"": results["quantities"],
+              "companion ": companion.pop("quantities", {})}
+    for group, table in tables.items():
+        for name, entry in table.items():
+            unit = "position" if "_position_" in name else entry["unit"]
+            values[group + name] = unit, entry["value"]
+    for name, value in companion.items():
+        values["companion " + name] = "-", value
+    return values
+
+
+def compare_values(failures, ranks, one, many):
+    failures.check(one.keys() == many.keys(),
+                   "other quantities on %d ranks" % ranks)
+    scales = {"-": 1.}
+    for unit, value in one.values():
+        scales[unit] = max(scales.get(unit, 0.), abs(value))
+    for name, (unit, value) in one.items():
+        other = many.get(name, (unit, float("nan")))[1]
+        allowed = TOLERANCE * abs(value) + FLOOR * scales[unit]
+        failures.check(
+            abs(other - value) <= allowed,
+            "%s: %.15g on one rank, %.15g on %d (difference %.1e, allowed "
+            "%.1e)" % (name, value, other, ranks, abs(other - value), allowed))
+
+
+def table_of(path):
+    with open(path) as file:
+        rows = list(csv.reader(file))
+    return rows[0], [[float(cell) for cell in row] for row in rows[1:]]
+
+
+def compare_probes(failures, ranks, one, many):
+    for path in glob.glob(one.path("probe_*.csv")):
+        name = os.path.basename(path)
+        columns, rows = table_of(path)
+        other_columns, other_rows = table_of(many.path(name))
+        same = columns == other_columns and len(rows) == len(other_rows)
+        if not failures.check(same, name + " has another form"):
+            continue
+        for c, column in enumerate(columns):
+            scale = max(abs(row[c]) for row in rows)
+            worst = max(
+                abs(row[c] - other[c]) for row, other in zip(rows, other_rows))
+            # the tables have 12 digits; stresses scale with each other
+            if column[0] == "s":
+                scale = max(abs(row[k]) for row in rows
+                            for k in range(len(columns))
+                            if columns[k][0] == "s")
+            failures.check(
+                worst <= 1e-10 * scale,
+                "%s, %s: differs by %.1e on %d ranks (largest value %.1e)" %
+                (name, column, worst, ranks, scale))
+
+
+def compare_counts(failures, ranks, one, many):
+    for name, count in one["counts"].items():
+        if name != "linear_iterations":
+            failures.check(
+                many["counts"][name] == count,
+                "%s: %d on one rank, %d on %d" %
+                (name, count, many["counts"][name], ranks))
+    for part in ("case", "mode", "status", "skipped", "warnings"):
+        failures.check(one[part] == many[part],
+                       "%s: %s, then %s" % (part, one[part], many[part]))
+
+
+def check_ghost(failures, ranks, one, many, expected):
+    ghost, other = one["checks"]["ghost_force"], many["checks"]["ghost_force"]
+    if expected:
+        failures.check_close("ghost_force on %d ranks" % ranks, other, ghost,
+                             TOLERANCE)
+    else:
+        failures.check_below("ghost_force", ghost, 1e-10)
+        failures.check_below("ghost_force on %d ranks" % ranks, other, 1e-10)
+    failures.check_below("imbalance on %d ranks" % ranks,
+                         many["checks"]["imbalance"], 1e-3 if expected else 1e-9)
+
+
+def main():
+    arguments = parse_arguments(__doc__)
+    runner = Runner(arguments)
+    failures = Failures()
+    for name, file, overrides, ghost in CASES:
+        if arguments.only and not re.search(arguments.only, name):
+            continue
+        failures.begin(name)
+        overrides = overrides + ["Output/fields=false"]
+        runs = [runner.run_case(file, overrides, n) for n in (1, 2, 3)]
+        done = [
+            failures.check(run.code == 0, "exit code %d" % run.code)
+            for run in runs
+        ]
+        if all(done):
+            results = [run.results() for run in runs]
+            one = quantities(results[0])
+            for n in (2, 3):
+                many = results[n - 1]
+                failures.check(many["ranks"] == n,
+                               "ran on %d ranks" % many["ranks"])
+                compare_values(failures, n, one, quantities(many))
+                compare_counts(failures, n, results[0], many)
+                compare_probes(failures, n, runs[0], runs[n - 1])
+                check_ghost(failures, n, results[0], many, ghost)
+            failures.end()
+        else:
+            failures.end(runs[done.index(False)])
+    finish(failures)
+
+
+if __name__ == "__main__":
+    main()
