@@ -37,7 +37,7 @@ namespace Perimorph::Solvers
            << static_cast<int>(fill * size.dim) << " entries per row";
     if (solver == LinearSolverKind::automatic)
       {
-        const double limit = size.dim == 2 ? 150000. : 12000.;
+        const double limit = size.dim == 2 ? 150000. : 6000.;
         choice.direct      = double(size.n_dofs) * fill_ratio < limit;
         reason << (choice.direct ? ": small enough to factorise"
                                  : ": too large to factorise cheaply");

@@ -134,7 +134,8 @@ def check_ghost(failures, ranks, one, many, expected):
         failures.check_below("ghost_force", ghost, 1e-10)
         failures.check_below("ghost_force on %d ranks" % ranks, other, 1e-10)
     failures.check_below("imbalance on %d ranks" % ranks,
-                         many["checks"]["imbalance"], 1e-3 if expected else 1e-9)
+                         many["checks"]["imbalance"],
+                         1e-3 if expected else 1e-9)
 
 
 def main():

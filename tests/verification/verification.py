@@ -20,6 +20,7 @@ sys.path.insert(
 from harness import (Failures, MESHES, PARAMETER_FILES, Runner, finish,
                      indented, parse_arguments)
 
+LAYOUT = "%-62s %11s %11s %15s %s"
 WITHOUT_FIELDS = {"Output/fields": "false", "Output/particles": "false"}
 
 
@@ -54,13 +55,12 @@ class Study:
         self.runner = Runner(self.arguments)
         self.failures = Failures()
 
-    def part(self, name):
+    def part(self, name, measured="measured", reference="reference"):
         """False if --only excludes it; else prints its name as a heading."""
         if self.arguments.only and not re.search(self.arguments.only, name):
             return False
         print("\n%s" % name)
-        print("%-58s %12s %12s %14s" %
-              ("what", "measured", "reference", "limit"))
+        print(LAYOUT % ("what", measured, reference, "limit", ""))
         return True
 
     def folder(self):
@@ -96,9 +96,8 @@ class Study:
             self.failures.begin(what)
             self.failures.check(good, "beyond the limit")
             self.failures.end()
-        print("%-58s %12s %12s %14s %s" %
-              (what, number(measured), number(reference), limit,
-               "ok" if good else "FAILED"))
+        print(LAYOUT % (what, number(measured), number(reference), limit,
+                        "ok" if good else "FAILED"))
         sys.stdout.flush()
 
     def below(self, what, measured, limit):
@@ -116,7 +115,7 @@ class Study:
         """Relative difference from the reference at most this."""
         error = 100. * (measured / reference - 1.)
         self.row(what, measured, reference,
-                 "%+.2f%% of %.3g%%" % (error, percent),
+                 "%+.2f of %.3g %%" % (error, percent),
                  abs(error) <= percent)
 
     def between(self, what, measured, low, high):

@@ -1,0 +1,186 @@
+#include <perimorph/application/simulation.h>
+#include <perimorph/base/log.h>
+#include <perimorph/base/name_help.h>
+
+#include <cmath>
+
+namespace Perimorph::Application
+{
+  template <int dim>
+  void
+  Simulation<dim>::prepare()
+  {
+    const auto timer = timing.scope("setup");
+    read_mesh();
+    Base::InputErrorCollector errors;
+    const auto                collect = [&errors](const auto &action) {
+      try
+        {
+          action();
+        }
+      catch (const Base::InputError &error)
+        {
+          for (const auto &message : error.messages())
+            errors.add(message);
+        }
+    };
+    const auto times = parameters.times();
+    collect([&]() { assign_materials(); });
+    collect([&]() { region = make_region_map(*mesh, parameters.region); });
+    collect([&]() {
+      supports =
+        std::make_unique<Fem::Supports<dim>>(*mesh,
+                                             parameters.boundary_conditions,
+                                             times);
+    });
+    collect([&]() {
+      loads = std::make_unique<Fem::Loads<dim>>(*mesh,
+                                                parameters.boundary_conditions,
+                                                times);
+    });
+    if (supports && !materials.laws.empty())
+      collect([&]() {
+        post_processing = std::make_unique<PostProcessing<dim>>(parameters,
+                                                                *mesh,
+                                                                materials,
+                                                                *supports);
+      });
+    if (supports && loads)
+      collect([&]() { hold_rigid_motion(); });
+    errors.throw_if_any();
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::read_mesh()
+  {
+    const auto  timer = timing.scope("mesh");
+    const auto &file  = parameters.mesh_file;
+    const auto  gmsh_mesh =
+      Mesh::read_gmsh<dim>(file, parameters.geometry_parameters, communicator);
+    mesh =
+      std::make_unique<Mesh::DistributedMesh<dim>>(gmsh_mesh, communicator);
+    const auto &nodal = mesh->nodal();
+    log << "Mesh: " << file << "\n  " << nodal.n_nodes() << " nodes, "
+        << nodal.n_cells() << " cells; boundaries: ";
+    log << Base::join_names(mesh->boundary_names()) << std::endl;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::assign_materials()
+  {
+    const auto add = [this](const MaterialConstants &constants) {
+      materials.laws.push_back(std::make_unique<Materials::LinearElastic<dim>>(
+        constants.youngs_modulus,
+        constants.poissons_ratio,
+        parameters.state));
+      materials.bond_constants.push_back(
+        {constants.youngs_modulus, parameters.state});
+    };
+    add(parameters.material);
+    auto &nodal = mesh->nodal();
+    for (const auto &entry : parameters.volume_materials)
+      {
+        const unsigned int index = materials.laws.size();
+        for (const unsigned int c :
+             mesh->volume(entry.first, "parameter 'Material / by volume'"))
+          nodal.cell_material[c] = index;
+        add(entry.second);
+      }
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::hold_rigid_motion()
+  {
+    free_motions = Fem::free_motions(*mesh, *supports);
+    if (free_motions.empty())
+      return;
+    std::string list;
+    for (const auto &motion : free_motions)
+      list += (list.empty() ? "" : ", ") + motion.description();
+    if (!parameters.boundary_conditions.remove_rigid_motion)
+      throw Base::InputError(
+        Base::InputMessage{"section 'Boundary conditions'",
+                           "no support against " + list,
+                           "supports that prevent every rigid motion",
+                           "Add symmetry or displacement conditions, or set "
+                           "'remove rigid motion = true'."});
+    if (supports->entries().empty() && loads->empty())
+      throw Base::InputError(Base::InputMessage{
+        "section 'Boundary conditions'",
+        "neither supports nor loads",
+        "at least one displacement, traction, pressure, body "
+        "force or point condition",
+        ""});
+    std::vector<unsigned int> needed;
+    Fem::add_cell_nodes(mesh->nodal(), needed);
+    check_load_balance(
+      Fem::NodePartition<dim>(mesh->nodal(), needed, communicator));
+    for (const unsigned int pin : Fem::pins_against(*mesh, free_motions))
+      supports->pin(pin);
+    log << "No support prevents " << list
+        << "; the mean of this motion is removed." << std::endl;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::check_load_balance(
+    const Fem::NodePartition<dim> &partition) const
+  {
+    Fem::Vector forces;
+    partition.initialize(forces);
+    for (const double time : parameters.times())
+      {
+        forces.zero_out_ghost_values();
+        forces = 0.;
+        loads->add_forces(time, partition, forces);
+        forces.compress(dealii::VectorOperation::add);
+        for (const auto &motion : free_motions)
+          {
+            double work = 0., magnitude = 0.;
+            for (unsigned int n = 0; n < partition.n_owned(); ++n)
+              if (mesh->pieces()[partition.global(n)] == motion.piece)
+                {
+                  const auto velocity = motion.at(partition.position(n));
+                  for (int d = 0; d < dim; ++d)
+                    {
+                      const double term =
+                        forces.local_element(dim * n + d) * velocity[d];
+                      work += term;
+                      magnitude += std::abs(term);
+                    }
+                }
+            work      = dealii::Utilities::MPI::sum(work, communicator);
+            magnitude = dealii::Utilities::MPI::sum(magnitude, communicator);
+            if (std::abs(work) > 1e-8 * magnitude)
+              throw Base::InputError(Base::InputMessage{
+                "section 'Boundary conditions'",
+                "loads that push the body in a direction that no support "
+                "prevents: " +
+                  motion.description(),
+                "loads in balance, or supports that take them",
+                "Add symmetry or displacement conditions."});
+          }
+      }
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::report_validation()
+  {
+    log
+      << "Mode: "
+      << Mesh::mode_names()[static_cast<int>(parameters.region.mode)] << ", "
+      << Coupling::model_names()[static_cast<int>(parameters.coupling.model)]
+      << ", coupling "
+      << Coupling::scheme_names()[static_cast<int>(parameters.coupling.scheme)]
+      << "\n  " << region.n_core << " nodes peridynamic, " << region.n_blending
+      << " blended, " << region.n_elements << " finite elements only\n"
+      << "The input is valid." << std::endl;
+  }
+
+  template class Simulation<2>;
+  template class Simulation<3>;
+} // namespace Perimorph::Application

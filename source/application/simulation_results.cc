@@ -1,0 +1,228 @@
+#include <perimorph/application/simulation.h>
+#include <perimorph/base/collective.h>
+#include <perimorph/base/log.h>
+#include <perimorph/output/summary.h>
+
+#include <Eigen/Dense>
+
+
+namespace Perimorph::Application
+{
+  namespace
+  {
+    /// A vector of unknowns complete on every rank, one entry per node.
+    template <int dim>
+    std::vector<dealii::Tensor<1, dim>>
+    complete(const Fem::Vector             &vector,
+             const Fem::NodePartition<dim> &partition)
+    {
+      std::vector<double> values(vector.size(), 0.);
+      const auto first = dim * static_cast<std::size_t>(partition.n_owned() > 0
+                                                          ? partition.global(0)
+                                                          : 0);
+      for (unsigned int k = 0; k < dim * partition.n_owned(); ++k)
+        values[first + k] = vector.local_element(k);
+      if (dealii::Utilities::MPI::n_mpi_processes(partition.communicator()) > 1)
+        dealii::Utilities::MPI::sum(values, partition.communicator(), values);
+      std::vector<dealii::Tensor<1, dim>> nodal(values.size() / dim);
+      for (std::size_t n = 0; n < nodal.size(); ++n)
+        for (int d = 0; d < dim; ++d)
+          nodal[n][d] = values[dim * n + d];
+      return nodal;
+    }
+  } // namespace
+
+  template <int dim>
+  void
+  Simulation<dim>::remove_mean_rigid_motion(Method &method) const
+  {
+    if (free_motions.empty())
+      return;
+    const auto &nodal     = mesh->nodal();
+    const auto &partition = method.problem->partition();
+    const auto  n         = free_motions.size();
+    const auto  velocity  = [&](const unsigned int k, const unsigned int node) {
+      return mesh->pieces()[node] == free_motions[k].piece
+                 ? free_motions[k].at(nodal.nodes[node])
+                 : dealii::Tensor<1, dim>();
+    };
+    Eigen::MatrixXd gram       = Eigen::MatrixXd::Zero(n, n);
+    Eigen::VectorXd projection = Eigen::VectorXd::Zero(n);
+    const auto      u          = complete(method.displacement, partition);
+    for (unsigned int node = 0; node < nodal.n_nodes(); ++node)
+      for (unsigned int k = 0; k < n; ++k)
+        {
+          const auto v = velocity(k, node);
+          projection[k] += nodal.volume[node] * (v * u[node]);
+          for (unsigned int l = 0; l < n; ++l)
+            gram(k, l) += nodal.volume[node] * (v * velocity(l, node));
+        }
+    const Eigen::VectorXd mean = gram.ldlt().solve(projection);
+    method.displacement.zero_out_ghost_values();
+    for (unsigned int local = 0; local < partition.n_owned(); ++local)
+      for (unsigned int k = 0; k < n; ++k)
+        {
+          const auto v = velocity(k, partition.global(local));
+          for (int d = 0; d < dim; ++d)
+            method.displacement.local_element(dim * local + d) -=
+              mean[k] * v[d];
+        }
+  }
+
+  template <int dim>
+  State<dim>
+  Simulation<dim>::gather(const Method &method) const
+  {
+    const auto &partition = method.problem->partition();
+    State<dim>  state;
+    Fem::Vector displacement(method.displacement);
+    displacement.update_ghost_values();
+    state.displacement = complete(displacement, partition);
+    state.internal_force =
+      complete(method.equilibrium->internal_forces(), partition);
+    state.external_force =
+      complete(method.equilibrium->external_forces(), partition);
+    state.strain_energy = method.problem->strain_energy(displacement);
+    return state;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::write_fields(const Method      &method,
+                                const State<dim>  &state,
+                                const unsigned int step,
+                                const double       time)
+  {
+    const auto          timer = timing.scope("output");
+    Output::Fields<dim> nodal_fields;
+    nodal_fields.add("displacement", state.displacement);
+    nodal_fields.add("alpha", method.region.alpha);
+    nodal_fields.add("horizon", method.region.horizon);
+    if (parameters.write_stress)
+      {
+        const auto stresses = post_processing->nodal_stress(state);
+        std::vector<dealii::SymmetricTensor<2, dim>> in_plane;
+        std::vector<double> out_of_plane, principal, mises;
+        for (const auto &stress : stresses)
+          {
+            in_plane.push_back(stress.in_plane);
+            out_of_plane.push_back(stress.out_of_plane);
+            principal.push_back(Fracture::principal_stresses(stress)[0]);
+            mises.push_back(Fracture::von_mises_stress(stress));
+          }
+        nodal_fields.add("stress", in_plane);
+        if (parameters.state == Materials::PlaneState::plane_strain)
+          nodal_fields.add("stress_zz", out_of_plane);
+        nodal_fields.add("stress_principal_max", principal);
+        nodal_fields.add("stress_von_mises", mises);
+      }
+    fields->write(step, time, nodal_fields);
+
+    if (!parameters.write_particles ||
+        method.region.n_core + method.region.n_blending == 0)
+      return;
+    const auto                         &nodal = mesh->nodal();
+    std::vector<unsigned int>           nodes;
+    std::vector<double>                 alpha, horizon, volume, damage;
+    std::vector<dealii::Tensor<1, dim>> displacement;
+    for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
+      if (method.region.alpha[n] > 0.)
+        {
+          nodes.push_back(n);
+          alpha.push_back(method.region.alpha[n]);
+          horizon.push_back(method.region.horizon[n]);
+          volume.push_back(nodal.volume[n]);
+          damage.push_back(0.);
+          displacement.push_back(state.displacement[n]);
+        }
+    Output::Fields<dim> particle_fields;
+    particle_fields.add("displacement", displacement);
+    particle_fields.add("alpha", alpha);
+    particle_fields.add("horizon", horizon);
+    particle_fields.add("volume", volume);
+    particle_fields.add("damage", damage);
+    fields->write_particles(step, time, nodes, particle_fields);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::evaluate(const State<dim> &state)
+  {
+    const auto timer = timing.scope("recovery");
+    for (const auto &quantity : post_processing->evaluate(state))
+      result->set_quantity(quantity.name, quantity.value, quantity.unit);
+    for (const auto &reference : parameters.reference_values)
+      result->set_reference(reference.first, reference.second);
+    for (const auto &file :
+         post_processing->write_probes(state, parameters.output_folder))
+      files.push_back(file);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::compare_with_finite_elements(const State<dim> &state)
+  {
+    const auto timer = timing.scope("companion");
+    log << "Companion run: finite elements only, same mesh" << std::endl;
+    Method method = set_up(Mesh::Mode::finite_elements);
+    for (const double time : parameters.times())
+      {
+        const auto record =
+          method.equilibrium->solve(time,
+                                    method.displacement,
+                                    [&](const unsigned int iteration,
+                                        const double       residual,
+                                        const unsigned int) {
+                                      log << "  Newton iteration " << iteration
+                                          << ": relative residual " << residual
+                                          << std::endl;
+                                    });
+        if (!record.converged)
+          throw Base::SolveError("the companion run with finite elements did "
+                                 "not converge: " +
+                                 record.reason);
+        remove_mean_rigid_motion(method);
+      }
+    const auto companion = gather(method);
+    for (const auto &quantity : post_processing->evaluate(companion))
+      result->set_companion_quantity(quantity.name,
+                                     quantity.value,
+                                     quantity.unit);
+    auto difference = state.displacement;
+    for (unsigned int n = 0; n < difference.size(); ++n)
+      difference[n] -= companion.displacement[n];
+    const auto norms = Fracture::error_norms<dim>(mesh->nodal(),
+                                                  materials.laws,
+                                                  difference,
+                                                  companion.displacement,
+                                                  communicator);
+    result->set("companion", "relative_difference_l2", norms.l2);
+    result->set("companion", "relative_difference_energy", norms.energy);
+    result->set("companion", "relative_difference_maximum", norms.maximum);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::finish(const Output::Status status)
+  {
+    for (const auto &file : fields->files())
+      files.push_back(file);
+    const auto table  = timing.table();
+    const auto memory = Base::peak_memory(communicator);
+    result->set_status(status);
+    result->set_timings(table);
+    result->set_peak_memory(memory.max_mb, memory.sum_mb);
+    Base::collectively(communicator, [&]() {
+      result->write(parameters.output_folder + "/results.json", log);
+    });
+    Output::print_summary(log,
+                          *result,
+                          parameters.output_folder,
+                          files,
+                          timing,
+                          table);
+  }
+
+  template class Simulation<2>;
+  template class Simulation<3>;
+} // namespace Perimorph::Application
