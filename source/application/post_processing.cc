@@ -96,6 +96,17 @@ namespace Perimorph::Application
         mesh.boundary(name, "parameter 'Quantities / " + entry + "'");
       });
     };
+    const auto held = [&](const std::string &name, const std::string &entry) {
+      boundary(name, entry);
+      for (const auto &support : supports.entries())
+        if (support.second.boundary == name)
+          return;
+      if (errors.empty())
+        errors.add_parameter("Quantities / " + entry,
+                             "'" + name + "', which no condition supports",
+                             "a boundary with a symmetry or displacement "
+                             "condition of its own");
+    };
     const auto inside = [&](const dealii::Point<dim> &point,
                             const std::string        &entry) {
       collect(entry, [&]() { probe->locate(point); });
@@ -103,9 +114,9 @@ namespace Perimorph::Application
     if (!parameters.stress_concentration.empty())
       boundary(parameters.stress_concentration, "stress concentration");
     if (!parameters.nominal_stress.reaction_of.empty())
-      boundary(parameters.nominal_stress.reaction_of, "nominal stress");
+      held(parameters.nominal_stress.reaction_of, "nominal stress");
     for (const auto &name : parameters.reactions)
-      boundary(name, "reaction");
+      held(name, "reaction");
     for (const auto &point : parameters.deflections)
       inside(to_point<dim>(point.point), "Quantities / deflection");
     for (const auto &point : parameters.stress_ratios)
@@ -215,9 +226,9 @@ namespace Perimorph::Application
                                 const State<dim>  &state) const
   {
     dealii::Tensor<1, dim> sum;
-    for (const unsigned int node : mesh.boundary_nodes(boundary, "reaction"))
-      for (int d = 0; d < dim; ++d)
-        sum[d] += reaction_at(dim * node + d, state);
+    for (const auto &[dof, entry] : supports.entries())
+      if (entry.boundary == boundary)
+        sum[dof % dim] += reaction_at(dof, state);
     return sum;
   }
 
@@ -381,6 +392,13 @@ namespace Perimorph::Application
   std::vector<Fracture::Stress<dim>>
   PostProcessing<dim>::nodal_stress(const State<dim> &state) const
   {
+    const auto at_rest = [](const dealii::Tensor<1, dim> &u) {
+      return u == dealii::Tensor<1, dim>();
+    };
+    if (std::all_of(state.displacement.begin(),
+                    state.displacement.end(),
+                    at_rest))
+      return std::vector<Fracture::Stress<dim>>(state.displacement.size());
     const auto               &nodal = mesh.nodal();
     std::vector<unsigned int> owned;
     for (unsigned int n = nodal.owned_begin; n < nodal.owned_end; ++n)

@@ -58,6 +58,9 @@ namespace Perimorph::Application
         return;
       std::error_code status;
       std::filesystem::create_directories(folder, status);
+      // Results of an earlier run must not stand beside a run that fails.
+      std::error_code ignored;
+      std::filesystem::remove(folder + "/results.json", ignored);
       std::ofstream parameter_copy(folder + "/parameters.prm");
       parameter_copy << parameters_text;
       parameter_copy.close();
@@ -98,12 +101,15 @@ namespace Perimorph::Application
         progress = std::make_unique<Base::Progress>(log, "Bonds", total);
       progress->update(done);
     };
-    method.problem =
-      std::make_unique<Coupling::CoupledProblem<dim>>(*mesh,
-                                                      method.region,
-                                                      materials,
-                                                      parameters.coupling,
-                                                      report);
+    {
+      const auto family_timer = timing.scope("families");
+      method.problem =
+        std::make_unique<Coupling::CoupledProblem<dim>>(*mesh,
+                                                        method.region,
+                                                        materials,
+                                                        parameters.coupling,
+                                                        report);
+    }
     method.equilibrium = std::make_unique<Solvers::Equilibrium<dim>>(
       *method.problem,
       *supports,

@@ -26,7 +26,10 @@ namespace Perimorph::Application
     };
     const auto times = parameters.times();
     collect([&]() { assign_materials(); });
-    collect([&]() { region = make_region_map(*mesh, parameters.region); });
+    collect([&]() {
+      const auto region_timer = timing.scope("regions");
+      region                  = make_region_map(*mesh, parameters.region);
+    });
     collect([&]() {
       supports =
         std::make_unique<Fem::Supports<dim>>(*mesh,
@@ -48,6 +51,7 @@ namespace Perimorph::Application
     if (supports && loads)
       collect([&]() { hold_rigid_motion(); });
     errors.throw_if_any();
+    warn_if_nothing_happens();
   }
 
   template <int dim>
@@ -123,6 +127,21 @@ namespace Perimorph::Application
     log << "No support prevents " << list
         << "; the mean of this motion is removed." << std::endl;
   }
+
+  template <int dim>
+  void
+  Simulation<dim>::warn_if_nothing_happens()
+  {
+    if (!loads->empty())
+      return;
+    for (const double time : parameters.times())
+      for (const auto &entry : supports->entries())
+        if (supports->value(entry.first, time) != 0.)
+          return;
+    log.warning("no load and no prescribed displacement other than zero: the "
+                "body will stay at rest");
+  }
+
 
   template <int dim>
   void

@@ -89,7 +89,9 @@ namespace Perimorph::Fem
           if (std::abs(plane.normal[d]) > std::abs(plane.normal[axis]))
             axis = d;
         for (const unsigned int node : mesh.boundary_nodes(name, used_by))
-          add(dim * node + axis, nullptr, "symmetry of '" + name + "'", times);
+          add(dim * node + axis,
+              {nullptr, "symmetry of '" + name + "'", name},
+              times);
       });
     for (const auto &condition : conditions.displacement)
       collect([&]() {
@@ -107,8 +109,9 @@ namespace Perimorph::Fem
           if (condition.components[d])
             for (const unsigned int node : nodes)
               add(dim * node + d,
-                  &*condition.components[d],
-                  condition.label(),
+                  {&*condition.components[d],
+                   condition.label(),
+                   condition.boundary},
                   times);
       });
     errors.throw_if_any();
@@ -116,12 +119,12 @@ namespace Perimorph::Fem
 
   template <int dim>
   void
-  Supports<dim>::add(const unsigned int            dof,
-                     const Parameters::Expression *expression,
-                     const std::string            &label,
-                     const std::vector<double>    &times)
+  Supports<dim>::add(const unsigned int         dof,
+                     const Entry               &entry,
+                     const std::vector<double> &times)
   {
-    const auto &position = mesh.nodal().nodes[dof / dim];
+    const auto &position   = mesh.nodal().nodes[dof / dim];
+    const auto *expression = entry.expression;
     if (expression)
       for (const double time : times)
         {
@@ -133,8 +136,8 @@ namespace Perimorph::Fem
                 throw Base::InputError(message);
             }
         }
-    const auto inserted = prescribed.emplace(dof, Entry{expression, label});
-    if (inserted.second || inserted.first->second.label == label)
+    const auto inserted = prescribed.emplace(dof, entry);
+    if (inserted.second || inserted.first->second.label == entry.label)
       return;
     const Entry &first = inserted.first->second;
     for (const double time : times)
@@ -147,7 +150,7 @@ namespace Perimorph::Fem
             std::ostringstream found;
             found << component_letter[dof % dim] << " = " << before
                   << " from the " << first.label << " but " << now
-                  << " from the " << label << " at the node (" << position
+                  << " from the " << entry.label << " at the node (" << position
                   << "), t = " << time;
             const std::string where = "contradicting supports";
             throw Base::InputError(Base::InputMessage{
@@ -173,7 +176,7 @@ namespace Perimorph::Fem
   void
   Supports<dim>::pin(const unsigned int dof)
   {
-    prescribed.emplace(dof, Entry{nullptr, "removal of rigid motion"});
+    prescribed.emplace(dof, Entry{nullptr, "removal of rigid motion", ""});
   }
 
   template struct DisplacementCondition<2>;

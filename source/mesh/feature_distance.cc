@@ -70,16 +70,20 @@ namespace Perimorph::Mesh
     }
 
     ClosestPoint<dim>
-    closest(const dealii::Point<dim> &point) const
+    closest(const dealii::Point<dim> &point, const Reach &reach) const
     {
-      // The nearest corner bounds the distance; a facet that is nearer has a
-      // corner no farther than that bound plus its diameter.
+      // The nearest corner bounds the distance; a facet that is nearer has all
+      // its corners within that bound plus its diameter, the first one too.
       const auto        nearest = corners.nearest(point);
       ClosestPoint<dim> best{nearest.second, corners.points()[nearest.first]};
+      if (best.distance - longest > reach(best.point))
+        return best;
       std::vector<unsigned int> near;
       corners.within(point, best.distance + longest, near);
       for (const unsigned int k : near)
         {
+          if (k % n != 0)
+            continue;
           const auto   on_facet = closest_on(facets[k / n], point);
           const double distance = on_facet.distance(point);
           if (distance < best.distance)
@@ -201,16 +205,18 @@ namespace Perimorph::Mesh
   template <int dim>
   ClosestPoint<dim>
   FeatureDistance<dim>::closest_to_node(const NodalMesh<dim> &mesh,
-                                        const unsigned int    node) const
+                                        const unsigned int    node,
+                                        const Reach          &reach) const
   {
     if (!inside.empty() && inside[node])
       return {0., mesh.nodes[node]};
-    return closest(mesh.nodes[node]);
+    return closest(mesh.nodes[node], reach);
   }
 
   template <int dim>
   ClosestPoint<dim>
-  FeatureDistance<dim>::closest(const dealii::Point<dim> &point) const
+  FeatureDistance<dim>::closest(const dealii::Point<dim> &point,
+                                const Reach              &reach) const
   {
     using Parameters::FeatureKind;
     const auto &x = feature.numbers;
@@ -218,7 +224,7 @@ namespace Perimorph::Mesh
       {
         case FeatureKind::boundary:
         case FeatureKind::volume:
-          return facets->closest(point);
+          return facets->closest(point, reach);
         case FeatureKind::point:
           {
             const auto p = read_point<dim>(x, 0);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace Perimorph::Mesh
 {
@@ -113,23 +114,33 @@ namespace Perimorph::Mesh
       for (const auto &feature : parameters.features)
         {
           const FeatureDistance<dim> distance(feature, mesh);
+          // Core size and band width seen from a place on the feature.
+          const auto sizes = [&](const dealii::Point<dim> &place) {
+            const auto   nearest = cloud.nearest(place).first;
+            const double horizon = map.horizon[nearest];
+            const auto   length  = [&](const Parameters::Length &size) {
+              if (size.automatic)
+                return std::max(2. * nodal.spacing[nearest], horizon);
+              return size.in_horizons ? size.value * horizon : size.value;
+            };
+            return std::make_pair(length(parameters.core_size),
+                                  parameters.blending_function ==
+                                      BlendingFunction::splice
+                                    ? 0.
+                                    : length(parameters.blending_width));
+          };
+          // Twice: the horizon at the nearest point may differ a little from
+          // that at the nearest corner.
+          const auto reach = [&](const dealii::Point<dim> &place) {
+            const auto [core, band] = sizes(place);
+            return 2. * (core + band);
+          };
           for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
             {
               if (map.alpha[n] == 1.)
                 continue;
-              const auto   closest = distance.closest_to_node(nodal, n);
-              const auto   nearest = cloud.nearest(closest.point).first;
-              const double horizon = map.horizon[nearest];
-              const auto   length  = [&](const Parameters::Length &size) {
-                if (size.automatic)
-                  return std::max(2. * nodal.spacing[nearest], horizon);
-                return size.in_horizons ? size.value * horizon : size.value;
-              };
-              const double core = length(parameters.core_size);
-              const double band =
-                parameters.blending_function == BlendingFunction::splice
-                  ? 0.
-                  : length(parameters.blending_width);
+              const auto closest = distance.closest_to_node(nodal, n, reach);
+              const auto [core, band] = sizes(closest.point);
               // Slack: a node exactly at the edge of the core is in it.
               const double beyond = closest.distance - core * (1. + 1e-10);
               double       weight = beyond <= 0. ? 1. : 0.;

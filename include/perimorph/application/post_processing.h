@@ -76,7 +76,8 @@ namespace Perimorph::Application
     double
     nominal_stress(const State<dim> &state) const;
 
-    /// Force of the supports on a boundary.
+    /// Force of the supports of a boundary: at a node shared with another
+    /// supported boundary each component counts for the condition that set it.
     dealii::Tensor<1, dim>
     reaction(const std::string &boundary, const State<dim> &state) const;
 

@@ -67,6 +67,8 @@ namespace Perimorph::Application
     void
     hold_rigid_motion();
     void
+    warn_if_nothing_happens();
+    void
     check_load_balance(const Fem::NodePartition<dim> &partition) const;
 
     void

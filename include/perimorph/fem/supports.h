@@ -38,6 +38,7 @@ namespace Perimorph::Fem
     {
       const Parameters::Expression *expression; ///< null: zero
       std::string                   label;      ///< of the condition
+      std::string                   boundary;   ///< empty: a point, a pin
     };
 
     /// Prescribed degrees of freedom (dim * node + component).
@@ -62,10 +63,7 @@ namespace Perimorph::Fem
 
   private:
     void
-    add(unsigned int                  dof,
-        const Parameters::Expression *expression,
-        const std::string            &label,
-        const std::vector<double>    &times);
+    add(unsigned int dof, const Entry &entry, const std::vector<double> &times);
 
     const Mesh::DistributedMesh<dim> &mesh;
     BoundaryConditions<dim>           conditions; ///< owns the expressions

@@ -3,6 +3,7 @@
 #include <perimorph/mesh/distributed_mesh.h>
 #include <perimorph/parameters/features.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -29,13 +30,20 @@ namespace Perimorph::Mesh
     ~FeatureDistance();
     FeatureDistance(FeatureDistance &&) noexcept;
 
+    /// How far from a place on the feature anything depends on the distance.
+    using Reach = std::function<double(const dealii::Point<dim> &)>;
+
     /// For a node of the mesh; zero for the nodes of a named volume.
+    /// @param reach  a node that is certainly farther away than this gets the
+    ///               nearest corner of the feature instead of the nearest point
     ClosestPoint<dim>
-    closest_to_node(const NodalMesh<dim> &mesh, unsigned int node) const;
+    closest_to_node(const NodalMesh<dim> &mesh,
+                    unsigned int          node,
+                    const Reach          &reach) const;
 
   private:
     ClosestPoint<dim>
-    closest(const dealii::Point<dim> &point) const;
+    closest(const dealii::Point<dim> &point, const Reach &reach) const;
 
     class Facets;
     Parameters::Feature     feature;
