@@ -24,10 +24,12 @@ namespace Perimorph::Fracture
     // cavity).
     constexpr double largest_amplification = 4.5;
 
-    // Enlargements of the radius before the polynomial is made linear; 1.3^5
-    // = 3.7 reaches three layers of nodes that are 4.8 spacings apart.
-    constexpr unsigned int n_enlargements = 5;
-    constexpr double       enlargement    = 1.3;
+    // Enlargements of the radius before the polynomial is made linear; 1.1^14
+    // = 3.8 reaches three layers of nodes that are 4.8 spacings apart. Small
+    // steps, because the error grows with the square of the radius and
+    // neighbouring points may need one step more or less.
+    constexpr unsigned int n_enlargements = 14;
+    constexpr double       enlargement    = 1.1;
   } // namespace
 
   template <int dim>

@@ -69,8 +69,8 @@ namespace Perimorph::Fracture
     length_at(const dealii::Point<dim> &point) const;
 
     /// @param length        h; all nodes within radius_factor h are used, and
-    ///                      1.3 times as far while they are too few or lie
-    ///                      badly
+    ///                      1.1 times as far, repeatedly, while they are too
+    ///                      few or lie badly
     /// @param material      only nodes on cells of this material, so that the
     ///                      kink at an interface stays sharp; or any_material
     /// @param displacement  one vector per node of the mesh
