@@ -77,22 +77,9 @@ namespace Perimorph::Application
   void
   PostProcessing<dim>::check(Base::InputErrorCollector &errors)
   {
-    const auto collect = [&errors](const std::string &where,
-                                   const auto        &action) {
-      try
-        {
-          action();
-        }
-      catch (const Base::InputError &error)
-        {
-          for (const auto &message : error.messages())
-            errors.add(where.empty() ? message
-                                     : "parameter '" + where + "': " + message);
-        }
-    };
     const auto boundary = [&](const std::string &name,
                               const std::string &entry) {
-      collect("", [&]() {
+      errors.collect([&]() {
         mesh.boundary(name, "parameter 'Quantities / " + entry + "'");
       });
     };
@@ -109,7 +96,8 @@ namespace Perimorph::Application
     };
     const auto inside = [&](const dealii::Point<dim> &point,
                             const std::string        &entry) {
-      collect(entry, [&]() { probe->locate(point); });
+      errors.collect([&]() { probe->locate(point); },
+                     "parameter '" + entry + "'");
     };
     if (!parameters.stress_concentration.empty())
       boundary(parameters.stress_concentration, "stress concentration");
@@ -124,30 +112,36 @@ namespace Perimorph::Application
     for (const auto &point : parameters.points)
       inside(to_point<dim>(point.point), "Quantities / point");
     for (const auto &line : parameters.lines)
-      collect("Quantities / line", [&]() {
-        for (const auto &point :
-             Fracture::line_points<dim>(to_point<dim>(line.from),
-                                        to_point<dim>(line.to),
-                                        line.n_points))
-          probe->locate(point);
-      });
+      errors.collect(
+        [&]() {
+          for (const auto &point :
+               Fracture::line_points<dim>(to_point<dim>(line.from),
+                                          to_point<dim>(line.to),
+                                          line.n_points))
+            probe->locate(point);
+        },
+        "parameter 'Quantities / line'");
     for (const auto &circle : parameters.circles)
-      collect("Quantities / circle", [&]() {
-        for (const auto &point :
-             Fracture::circle_points<dim>(to_point<dim>(circle.center),
-                                          circle.radius,
-                                          circle.from_degrees,
-                                          circle.to_degrees,
-                                          circle.n_points))
-          probe->locate(point);
-      });
+      errors.collect(
+        [&]() {
+          for (const auto &point :
+               Fracture::circle_points<dim>(to_point<dim>(circle.center),
+                                            circle.radius,
+                                            circle.from_degrees,
+                                            circle.to_degrees,
+                                            circle.n_points))
+            probe->locate(point);
+        },
+        "parameter 'Quantities / circle'");
     for (const auto &data : parameters.reference_data)
-      collect("Reference / data", [&]() {
-        auto table = Fracture::read_reference_data<dim>(data.file);
-        for (const auto &point : table.points)
-          probe->locate(point);
-        reference_data.push_back(std::move(table));
-      });
+      errors.collect(
+        [&]() {
+          auto table = Fracture::read_reference_data<dim>(data.file);
+          for (const auto &point : table.points)
+            probe->locate(point);
+          reference_data.push_back(std::move(table));
+        },
+        "parameter 'Reference / data'");
     if (parameters.has_reference_displacement)
       for (int d = 0; d < dim; ++d)
         if (parameters.reference_displacement[d])

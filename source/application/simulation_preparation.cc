@@ -13,43 +13,32 @@ namespace Perimorph::Application
     const auto timer = timing.scope("setup");
     read_mesh();
     Base::InputErrorCollector errors;
-    const auto                collect = [&errors](const auto &action) {
-      try
-        {
-          action();
-        }
-      catch (const Base::InputError &error)
-        {
-          for (const auto &message : error.messages())
-            errors.add(message);
-        }
-    };
-    const auto times = parameters.times();
-    collect([&]() { assign_materials(); });
-    collect([&]() {
+    const auto                times = parameters.times();
+    errors.collect([&]() { assign_materials(); });
+    errors.collect([&]() {
       const auto region_timer = timing.scope("regions");
       region                  = make_region_map(*mesh, parameters.region);
     });
-    collect([&]() {
+    errors.collect([&]() {
       supports =
         std::make_unique<Fem::Supports<dim>>(*mesh,
                                              parameters.boundary_conditions,
                                              times);
     });
-    collect([&]() {
+    errors.collect([&]() {
       loads = std::make_unique<Fem::Loads<dim>>(*mesh,
                                                 parameters.boundary_conditions,
                                                 times);
     });
     if (supports && !materials.laws.empty())
-      collect([&]() {
+      errors.collect([&]() {
         post_processing = std::make_unique<PostProcessing<dim>>(parameters,
                                                                 *mesh,
                                                                 materials,
                                                                 *supports);
       });
     if (supports && loads)
-      collect([&]() { hold_rigid_motion(); });
+      errors.collect([&]() { hold_rigid_motion(); });
     errors.throw_if_any();
     warn_if_nothing_happens();
   }

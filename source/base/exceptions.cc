@@ -89,6 +89,22 @@ namespace Perimorph::Base
   }
 
 
+  void
+  InputErrorCollector::collect(const std::function<void()> &check,
+                               const std::string           &where)
+  {
+    try
+      {
+        check();
+      }
+    catch (const InputError &error)
+      {
+        for (const std::string &message : error.messages())
+          add(where.empty() ? message : where + ": " + message);
+      }
+  }
+
+
   bool
   InputErrorCollector::empty() const
   {

@@ -103,12 +103,7 @@ namespace Perimorph::Coupling
   {
     if (region.n_core + region.n_blending == 0)
       {
-        std::vector<unsigned int> needed;
-        Fem::add_cell_nodes(mesh.nodal(), needed);
-        node_partition =
-          std::make_unique<Fem::NodePartition<dim>>(mesh.nodal(),
-                                                    needed,
-                                                    mesh.communicator());
+        make_partition({});
         contributions.push_back(
           std::make_unique<Fem::ElasticCells<dim>>(mesh.nodal(),
                                                    *node_partition,
@@ -155,34 +150,16 @@ namespace Perimorph::Coupling
     local_counts.bonds     = set.n_bonds();
 
     std::vector<unsigned int> needed;
-    Fem::add_cell_nodes(nodal, needed);
     add_family_nodes(set, needed);
-    node_partition =
-      std::make_unique<Fem::NodePartition<dim>>(nodal,
-                                                needed,
-                                                mesh.communicator());
-
-    auto elements = std::make_unique<Fem::ElasticCells<dim>>(
-      nodal,
-      *node_partition,
-      materials.laws,
-      forces ? std::vector<double>() : complement(region.alpha),
-      forces ? core_cells(nodal, region.alpha) : std::vector<bool>());
+    make_partition(needed);
     auto term = std::make_unique<CorrespondenceTerm<dim>>(std::move(set),
                                                           *node_partition,
                                                           materials.laws);
-    if (forces)
-      {
-        elements->set_row_weights(
-          local_weights(*node_partition, region.alpha, true));
-        term->set_row_weights(
-          local_weights(*node_partition, region.alpha, false));
-      }
     families.push_back(term.get());
-    if (dealii::Utilities::MPI::max(elements->n_blocks(), mesh.communicator()) >
-        0)
-      contributions.push_back(std::move(elements));
-    contributions.push_back(std::move(term));
+    add_terms(region,
+              parameters.scheme,
+              complement(region.alpha),
+              std::move(term));
   }
 
   template <int dim>
@@ -210,34 +187,53 @@ namespace Perimorph::Coupling
       local_counts.particles += region.alpha[n] > 0. ? 1 : 0;
 
     std::vector<unsigned int> needed;
-    Fem::add_cell_nodes(nodal, needed);
     add_bond_nodes(coupling.bonds, needed);
+    make_partition(needed);
+    add_terms(region,
+              parameters.scheme,
+              consistent ? std::vector<double>() : complement(region.alpha),
+              std::make_unique<BondTerm<dim>>(coupling.bonds, *node_partition));
+    if (consistent)
+      contributions.push_back(
+        std::make_unique<SegmentTerm<dim>>(nodal, *node_partition, coupling));
+  }
+
+  template <int dim>
+  void
+  CoupledProblem<dim>::make_partition(std::vector<unsigned int> needed)
+  {
+    Fem::add_cell_nodes(mesh.nodal(), needed);
     node_partition =
-      std::make_unique<Fem::NodePartition<dim>>(nodal,
+      std::make_unique<Fem::NodePartition<dim>>(mesh.nodal(),
                                                 needed,
                                                 mesh.communicator());
-    auto elements = std::make_unique<Fem::ElasticCells<dim>>(
-      nodal,
+  }
+
+  template <int dim>
+  void
+  CoupledProblem<dim>::add_terms(const Mesh::RegionMap     &region,
+                                 const Scheme               scheme,
+                                 const std::vector<double> &element_weight,
+                                 std::unique_ptr<Term>      particles)
+  {
+    const bool forces   = scheme == Scheme::force_blending;
+    auto       elements = std::make_unique<Fem::ElasticCells<dim>>(
+      mesh.nodal(),
       *node_partition,
       materials.laws,
-      forces || consistent ? std::vector<double>() : complement(region.alpha),
-      forces ? core_cells(nodal, region.alpha) : std::vector<bool>());
-    auto term =
-      std::make_unique<BondTerm<dim>>(coupling.bonds, *node_partition);
+      forces ? std::vector<double>() : element_weight,
+      forces ? core_cells(mesh.nodal(), region.alpha) : std::vector<bool>());
     if (forces)
       {
         elements->set_row_weights(
           local_weights(*node_partition, region.alpha, true));
-        term->set_row_weights(
+        particles->set_row_weights(
           local_weights(*node_partition, region.alpha, false));
       }
     if (dealii::Utilities::MPI::max(elements->n_blocks(), mesh.communicator()) >
         0)
       contributions.push_back(std::move(elements));
-    contributions.push_back(std::move(term));
-    if (consistent)
-      contributions.push_back(
-        std::make_unique<SegmentTerm<dim>>(nodal, *node_partition, coupling));
+    contributions.push_back(std::move(particles));
   }
 
   template <int dim>

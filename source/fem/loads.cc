@@ -61,17 +61,6 @@ namespace Perimorph::Fem
   {
     const auto               &nodal = mesh.nodal();
     Base::InputErrorCollector errors;
-    const auto                collect = [&](const auto &action) {
-      try
-        {
-          action();
-        }
-      catch (const Base::InputError &error)
-        {
-          for (const auto &message : error.messages())
-            errors.add(message);
-        }
-    };
     const auto cell_points = [&](const std::vector<unsigned int> &cells) {
       std::vector<dealii::Point<dim>> points;
       for (const unsigned int c : cells)
@@ -81,7 +70,7 @@ namespace Perimorph::Fem
     };
 
     for (const auto &load : conditions.surface_loads)
-      collect([&]() {
+      errors.collect([&]() {
         const std::string entry = load.pressure ? "pressure" : "traction";
         std::vector<dealii::Point<dim>> points;
         for (const unsigned int f :
@@ -96,7 +85,7 @@ namespace Perimorph::Fem
         check_finite(expressions, points, times, errors);
       });
     for (const auto &force : conditions.body_forces)
-      collect([&]() {
+      errors.collect([&]() {
         std::vector<unsigned int> cells(nodal.n_cells());
         std::iota(cells.begin(), cells.end(), 0u);
         if (!force.volume.empty())
@@ -108,7 +97,7 @@ namespace Perimorph::Fem
                      errors);
       });
     for (const auto &force : conditions.point_forces)
-      collect([&]() {
+      errors.collect([&]() {
         const unsigned int node =
           node_at(nodal,
                   force.point,

@@ -66,20 +66,9 @@ namespace Perimorph::Fem
   {
     const auto               &nodal = mesh.nodal();
     Base::InputErrorCollector errors;
-    const auto                collect = [&](const auto &action) {
-      try
-        {
-          action();
-        }
-      catch (const Base::InputError &error)
-        {
-          for (const auto &message : error.messages())
-            errors.add(message);
-        }
-    };
 
     for (const auto &name : conditions.symmetry)
-      collect([&]() {
+      errors.collect([&]() {
         const std::string used_by =
           "parameter 'Boundary conditions / symmetry'";
         const auto plane = symmetry_plane(mesh, name, used_by);
@@ -94,7 +83,7 @@ namespace Perimorph::Fem
               times);
       });
     for (const auto &condition : conditions.displacement)
-      collect([&]() {
+      errors.collect([&]() {
         std::vector<unsigned int> nodes;
         if (condition.boundary.empty())
           nodes = {node_at(nodal,

@@ -26,7 +26,9 @@ def material(model, dim, state):
         "Material/Young's modulus": 1,
         "Material/Poisson's ratio": "%.17g" % ratio,
         "Material/state": state,
-        "Peridynamics/model": model
+        "Peridynamics/model": model,
+        # Where the solver is iterative its tolerance (1e-10) would be judged.
+        "Solver/linear tolerance": "1e-13"
     }, ratio
 
 
@@ -52,7 +54,6 @@ def random_matrix(dim, generator):
 def mesh_entries(folder, name):
     """Writes the mesh of this name; its entries, its dimension, its sides."""
     path = os.path.join(folder, "mesh.msh")
-    sides = None
     if name == "unstructured":
         return {
             "Mesh/file": os.path.join(MESHES, "patch_test.geo"),
@@ -79,7 +80,8 @@ def judge(study, what, solution, error="relative_displacement_error"):
 
 def dirichlet(study):
     """The exact field on the whole boundary."""
-    if not study.part("displacement prescribed all around", "ghost force", "error"):
+    if not study.part("displacement prescribed all around", "ghost force",
+                      "error"):
         return
     number = 0
     for mesh in ("uniform", "distorted 25 %", "unstructured", "graded 8:1",
@@ -97,7 +99,7 @@ def dirichlet(study):
 
 
 def one_field(study, mesh, model, ratio, blending, seed, state=None,
-              mode="coupled", extra=None):
+              mode="coupled"):
     folder = study.folder()
     entries, dim, sides = mesh_entries(folder, mesh)
     state = state or ("plane stress" if dim == 2 else "automatic")
@@ -115,7 +117,6 @@ def one_field(study, mesh, model, ratio, blending, seed, state=None,
         entries["Peridynamics/around"] = "ball %s 0.12" % " ".join(["0.5"] *
                                                                    dim)
         entries["Peridynamics/core size"] = "0.1"
-    entries.update(extra or {})
     solution = study.solve(write_parameters(folder + "/case.prm", entries))
     words = [mesh, model, "m %g" % ratio, blending]
     if mode != "coupled":
@@ -210,7 +211,8 @@ def neumann(study):
 
 
 def pure_peridynamics(study):
-    if not study.part("peridynamics only, displacement all around", "ghost force", "error"):
+    if not study.part("peridynamics only, displacement all around",
+                      "ghost force", "error"):
         return
     for number, mesh in enumerate(
         ("uniform", "distorted 25 %", "unstructured", "graded 8:1",
@@ -231,7 +233,8 @@ def layers(study):
     for mode, model, direction in (("coupled", "correspondence", "along"),
                                    ("coupled", "correspondence", "across"),
                                    ("peridynamics", "correspondence", "along"),
-                                   ("peridynamics", "correspondence", "across"),
+                                   ("peridynamics", "correspondence",
+                                    "across"),
                                    ("coupled", "bond based", "along")):
         for distortion in (0., .2):
             for ratio in (1.5, 2., 3.):

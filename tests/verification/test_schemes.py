@@ -2,8 +2,9 @@
 classical ones, the influence functions, the solvers.
 
 References: table of patch tests of the numerical study (numerics.md, section
-4; m = 2, omega = 1 - r/delta, core r < 0.18, blending to 0.32, 20 % distorted) and its Kirsch
-table (section 6, "shape tensor only", "none", "force blending").
+4; m = 2, omega = 1 - r/delta, core r < 0.18, blending to 0.32, 20 % distorted)
+and its Kirsch table (section 6, "shape tensor only", "none", "force
+blending").
 """
 
 import kirsch
@@ -154,9 +155,10 @@ def influence_functions(study):
                                      solution["stress_concentration"],
                                      3.086085158, 3.)
             else:
-                study.note("%sK_t error %+.2f %%, ring %.2f %%" % (what, 100. * (
-                    solution["stress_concentration"] / 3.086085158 - 1.),
-                    100. * solution["ring_stt_error"]))
+                error = solution["stress_concentration"] / 3.086085158 - 1.
+                study.note("%sK_t error %+.2f %%, ring %.2f %%" %
+                           (what, 100. * error,
+                            100. * solution["ring_stt_error"]))
 
 
 SOLVERS = [("direct", "automatic"), ("iterative", "assembled"),

@@ -47,7 +47,7 @@ namespace Perimorph::Application
     std::string constants;
 
     std::string  linear_solver = "automatic", tangent = "automatic";
-    double       linear_tolerance = 1e-10, newton_tolerance = 1e-9;
+    double       linear_tolerance = 1e-12, newton_tolerance = 1e-9;
     unsigned int maximum_newton_iterations = 20;
 
     std::string stress_concentration, nominal_stress, deflection, stress_ratio,

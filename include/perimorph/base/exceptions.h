@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -71,6 +72,12 @@ namespace Perimorph::Base
     /// Remembers where a parameter was set, e.g. "plate.prm:12" or "--set".
     void
     remember_origin(const std::string &path, const std::string &origin);
+
+    /// Runs a check that throws and keeps its messages, so that the next check
+    /// runs too.
+    /// @param where   put in front of each message; may be empty
+    void
+    collect(const std::function<void()> &check, const std::string &where = "");
 
     bool
     empty() const;

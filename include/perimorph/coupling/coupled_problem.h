@@ -123,6 +123,16 @@ namespace Perimorph::Coupling
     counts() const;
 
   private:
+    /// @param needed  nodes that families or bonds of this rank touch
+    void
+    make_partition(std::vector<unsigned int> needed);
+    /// Adds the elements (none where nothing is left for them) and the
+    /// peridynamic term.
+    void
+    add_terms(const Mesh::RegionMap     &region,
+              Scheme                     scheme,
+              const std::vector<double> &element_weight,
+              std::unique_ptr<Term>      particles);
     void
     make_correspondence(const Mesh::RegionMap    &region,
                         const CouplingParameters &parameters);

@@ -22,7 +22,7 @@ namespace Perimorph::Solvers
   {
     LinearSolverKind linear_solver    = LinearSolverKind::automatic;
     TangentKind      tangent          = TangentKind::automatic;
-    double           linear_tolerance = 1e-10;
+    double           linear_tolerance = 1e-12;
     NewtonParameters newton;
   };
 
