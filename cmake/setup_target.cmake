@@ -4,6 +4,8 @@
 function(perimorph_setup_target target)
   deal_ii_setup_target(${target})
   target_compile_options(${target} PRIVATE -Wall -Wextra)
+  # deal.II 9.4 includes a header of Boost that prints a note without this.
+  target_compile_definitions(${target} PRIVATE BOOST_BIND_GLOBAL_PLACEHOLDERS)
   if(CMAKE_BUILD_TYPE STREQUAL "Release")
     # deal.II asks for -g, which costs a third of the compile time
     target_compile_options(${target} PRIVATE -g0)

@@ -384,7 +384,9 @@ namespace Perimorph::Application
 
   template <int dim>
   std::vector<Fracture::Stress<dim>>
-  PostProcessing<dim>::nodal_stress(const State<dim> &state) const
+  PostProcessing<dim>::nodal_stress(
+    const State<dim>                                    &state,
+    const std::function<void(std::size_t, std::size_t)> &progress) const
   {
     const auto at_rest = [](const dealii::Tensor<1, dim> &u) {
       return u == dealii::Tensor<1, dim>();
@@ -393,22 +395,18 @@ namespace Perimorph::Application
                     state.displacement.end(),
                     at_rest))
       return std::vector<Fracture::Stress<dim>>(state.displacement.size());
-    const auto               &nodal = mesh.nodal();
-    std::vector<unsigned int> owned;
-    for (unsigned int n = nodal.owned_begin; n < nodal.owned_end; ++n)
-      owned.push_back(n);
-    const auto local = recovery->at_nodes(owned, state.displacement);
-
+    const auto &nodal = mesh.nodal();
     // Complete arrays by adding zeros from the other ranks.
     constexpr unsigned int n_components = dim * (dim + 1) / 2 + 1;
     std::vector<double>    values(n_components * nodal.n_nodes(), 0.);
-    for (unsigned int k = 0; k < owned.size(); ++k)
+    for (unsigned int n = nodal.owned_begin; n < nodal.owned_end; ++n)
       {
+        const auto stress = recovery->at_node(n, state.displacement);
         for (unsigned int c = 0; c + 1 < n_components; ++c)
-          values[n_components * owned[k] + c] =
-            local[k].in_plane.access_raw_entry(c);
-        values[n_components * owned[k] + n_components - 1] =
-          local[k].out_of_plane;
+          values[n_components * n + c] = stress.in_plane.access_raw_entry(c);
+        values[n_components * n + n_components - 1] = stress.out_of_plane;
+        if ((n - nodal.owned_begin) % 1000 == 0)
+          progress(n - nodal.owned_begin, nodal.owned_end - nodal.owned_begin);
       }
     if (dealii::Utilities::MPI::n_mpi_processes(mesh.communicator()) > 1)
       dealii::Utilities::MPI::sum(values, mesh.communicator(), values);

@@ -98,7 +98,8 @@ namespace Perimorph::Application
     std::unique_ptr<Base::Progress> progress;
     const auto report = [&](const std::size_t done, const std::size_t total) {
       if (!progress)
-        progress = std::make_unique<Base::Progress>(log, "Bonds", total);
+        progress =
+          std::make_unique<Base::Progress>(log, "Families and bonds", total);
       progress->update(done);
     };
     {

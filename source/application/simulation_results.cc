@@ -1,6 +1,7 @@
 #include <perimorph/application/simulation.h>
 #include <perimorph/base/collective.h>
 #include <perimorph/base/log.h>
+#include <perimorph/base/progress.h>
 #include <perimorph/output/summary.h>
 
 #include <Eigen/Dense>
@@ -100,7 +101,15 @@ namespace Perimorph::Application
     nodal_fields.add("horizon", method.region.horizon);
     if (parameters.write_stress)
       {
-        const auto stresses = post_processing->nodal_stress(state);
+        Base::Progress progress(log,
+                                "Stress recovery",
+                                mesh->nodal().owned_end -
+                                  mesh->nodal().owned_begin);
+        const auto     stresses = post_processing->nodal_stress(
+          state,
+          [&](const std::size_t done, const std::size_t) {
+            progress.update(done);
+          });
         std::vector<dealii::SymmetricTensor<2, dim>> in_plane;
         std::vector<double> out_of_plane, principal, mises;
         for (const auto &stress : stresses)

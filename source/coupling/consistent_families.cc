@@ -161,6 +161,8 @@ namespace Perimorph::Coupling
     for (std::size_t p = 0; p < particles.size(); ++p)
       {
         const unsigned int node = particles[p].node;
+        if (parameters.progress && p % 1000 == 0)
+          parameters.progress(p, particles.size());
         if (!mesh.owns_node(node))
           continue;
         double weight = 0.;

@@ -111,7 +111,7 @@ namespace Perimorph::Coupling
                                                    std::vector<double>()));
       }
     else if (parameters.model == Model::correspondence)
-      make_correspondence(region, parameters);
+      make_correspondence(region, parameters, progress);
     else
       make_bonds(region, parameters, progress);
 
@@ -127,11 +127,15 @@ namespace Perimorph::Coupling
   template <int dim>
   void
   CoupledProblem<dim>::make_correspondence(const Mesh::RegionMap    &region,
-                                           const CouplingParameters &parameters)
+                                           const CouplingParameters &parameters,
+                                           const Progress           &progress)
   {
     const auto      &nodal  = mesh.nodal();
     const bool       forces = parameters.scheme == Scheme::force_blending;
-    FamilyParameters options{parameters.influence, parameters.gamma, {}};
+    FamilyParameters options{parameters.influence,
+                             parameters.gamma,
+                             {},
+                             progress};
     for (const auto &law : materials.laws)
       options.shear_modulus.push_back(law->shear_modulus());
 

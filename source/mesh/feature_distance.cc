@@ -40,9 +40,9 @@ namespace Perimorph::Mesh
           return a + v * ab + w * ac;
       }
     const std::array<dealii::Point<3>, 3> candidates = {
-      closest_on_segment(point, a, b),
-      closest_on_segment(point, b, c),
-      closest_on_segment(point, c, a)};
+      {closest_on_segment(point, a, b),
+       closest_on_segment(point, b, c),
+       closest_on_segment(point, c, a)}};
     return *std::min_element(candidates.begin(),
                              candidates.end(),
                              [&](const auto &p, const auto &q) {

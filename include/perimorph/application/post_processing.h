@@ -6,6 +6,7 @@
 #include <perimorph/fracture/probes.h>
 #include <perimorph/fracture/reference_data.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -54,8 +55,12 @@ namespace Perimorph::Application
     write_probes(const State<dim> &state, const std::string &folder) const;
 
     /// Recovered stress at every node, complete on every rank.
+    /// @param progress  called now and then with the nodes done and their
+    /// number
     std::vector<Fracture::Stress<dim>>
-    nodal_stress(const State<dim> &state) const;
+    nodal_stress(
+      const State<dim>                                    &state,
+      const std::function<void(std::size_t, std::size_t)> &progress) const;
 
     /// Exact displacement at the nodes; empty without a reference.
     std::vector<dealii::Tensor<1, dim>>

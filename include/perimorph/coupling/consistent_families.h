@@ -4,6 +4,7 @@
 #include <perimorph/peridynamics/family_set.h>
 #include <perimorph/peridynamics/influence_function.h>
 
+#include <functional>
 #include <vector>
 
 namespace Perimorph::Coupling
@@ -16,6 +17,8 @@ namespace Perimorph::Coupling
     double gamma = 1.; ///< dimensionless stabilisation
     /// Shear modulus of each material: the scale of the stabilisation.
     std::vector<double> shear_modulus;
+    /// Called now and then with the particles done and their number.
+    std::function<void(std::size_t, std::size_t)> progress;
   };
 
   /// Families of the particles of this rank with the consistent, explicit

@@ -135,7 +135,8 @@ namespace Perimorph::Coupling
               std::unique_ptr<Term>      particles);
     void
     make_correspondence(const Mesh::RegionMap    &region,
-                        const CouplingParameters &parameters);
+                        const CouplingParameters &parameters,
+                        const Progress           &progress);
     void
     make_bonds(const Mesh::RegionMap    &region,
                const CouplingParameters &parameters,
