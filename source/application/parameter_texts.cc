@@ -209,8 +209,8 @@ namespace Perimorph::Application
                       Double(1e-15, 1e-2));
     prm.add_parameter("Newton tolerance",
                       newton_tolerance,
-                      "Out-of-balance force relative to the largest of loads, "
-                      "reactions and internal forces.",
+                      "Out-of-balance force relative to the largest load, "
+                      "reaction or out-of-balance met so far.",
                       Double(1e-14, 1e-2));
     prm.add_parameter("maximum Newton iterations",
                       maximum_newton_iterations,

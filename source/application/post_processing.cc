@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Perimorph::Application
 {
@@ -102,7 +103,17 @@ namespace Perimorph::Application
     if (!parameters.stress_concentration.empty())
       boundary(parameters.stress_concentration, "stress concentration");
     if (!parameters.nominal_stress.reaction_of.empty())
-      held(parameters.nominal_stress.reaction_of, "nominal stress");
+      {
+        const auto &name = parameters.nominal_stress.reaction_of;
+        held(name, "nominal stress");
+        if (errors.empty() &&
+            vector_area(name).norm() <
+              1e-6 * Fem::boundary_area(mesh, name, "nominal stress"))
+          errors.add_parameter("Quantities / nominal stress",
+                               "the closed boundary '" + name + "'",
+                               "a boundary on which a mean normal stress has "
+                               "a meaning");
+      }
     for (const auto &name : parameters.reactions)
       held(name, "reaction");
     for (const auto &point : parameters.deflections)
@@ -227,6 +238,19 @@ namespace Perimorph::Application
   }
 
   template <int dim>
+  dealii::Tensor<1, dim>
+  PostProcessing<dim>::vector_area(const std::string &boundary) const
+  {
+    const auto            &nodal = mesh.nodal();
+    dealii::Tensor<1, dim> area;
+    for (const unsigned int f : mesh.boundary(boundary, "nominal stress"))
+      for (const auto &normal :
+           Fem::FaceGeometry<dim>(nodal, nodal.boundary_faces[f]).normal_jxw)
+        area += normal;
+    return area;
+  }
+
+  template <int dim>
   double
   PostProcessing<dim>::nominal_stress(const State<dim> &state) const
   {
@@ -236,12 +260,7 @@ namespace Perimorph::Application
     if (name.empty())
       return 1.;
     // Mean normal stress: tension positive.
-    const auto            &nodal = mesh.nodal();
-    dealii::Tensor<1, dim> area;
-    for (const unsigned int f : mesh.boundary(name, "nominal stress"))
-      for (const auto &normal :
-           Fem::FaceGeometry<dim>(nodal, nodal.boundary_faces[f]).normal_jxw)
-        area += normal;
+    const auto area = vector_area(name);
     return reaction(name, state) * area / area.norm_square();
   }
 
@@ -268,7 +287,12 @@ namespace Perimorph::Application
   {
     std::vector<NamedQuantity> list;
     const double               nominal = nominal_stress(state);
-    if (!parameters.stress_concentration.empty())
+    if (!parameters.stress_concentration.empty() && nominal == 0.)
+      // An unloaded state has no stress concentration: null in results.json.
+      list.push_back({"stress_concentration",
+                      std::numeric_limits<double>::quiet_NaN(),
+                      "-"});
+    else if (!parameters.stress_concentration.empty())
       {
         const auto nodes = mesh.boundary_nodes(parameters.stress_concentration,
                                                "stress concentration");
@@ -276,7 +300,7 @@ namespace Perimorph::Application
           Fracture::stress_concentration(*recovery,
                                          nodes,
                                          state.displacement,
-                                         nominal == 0. ? 1. : nominal,
+                                         nominal,
                                          parameters.stress_concentration,
                                          mesh.communicator());
         list.push_back({"stress_concentration", result.value, "-"});
@@ -300,7 +324,7 @@ namespace Perimorph::Application
          stress_component(
            probe->stress_at(to_point<dim>(entry.point), state.displacement),
            entry.component) /
-           (nominal == 0. ? 1. : nominal),
+           (nominal),
          "-"});
     for (const auto &entry : parameters.points)
       add_point(entry.name, to_point<dim>(entry.point), state, list);
@@ -440,8 +464,20 @@ namespace Perimorph::Application
   }
 
   template <int dim>
+  dealii::Tensor<1, dim>
+  PostProcessing<dim>::outer_force(const unsigned int node,
+                                   const State<dim>  &state) const
+  {
+    auto force = state.external_force[node];
+    for (int d = 0; d < dim; ++d)
+      force[d] += reaction_at(dim * node + d, state);
+    return force;
+  }
+
+  template <int dim>
   double
-  PostProcessing<dim>::imbalance(const State<dim> &state) const
+  PostProcessing<dim>::imbalance(const State<dim> &state,
+                                 double           &largest_force) const
   {
     const auto            &nodal = mesh.nodal();
     dealii::Tensor<1, dim> force;
@@ -449,18 +485,19 @@ namespace Perimorph::Application
     double                 magnitude = 0., lever = 0.;
     for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
       {
-        auto outer = state.external_force[n];
-        for (int d = 0; d < dim; ++d)
-          outer[d] += reaction_at(dim * n + d, state);
-        const dealii::Tensor<1, dim> arm = nodal.nodes[n] - nodal.nodes[0];
+        const auto                   outer = outer_force(n, state);
+        const dealii::Tensor<1, dim> arm   = nodal.nodes[n] - nodal.nodes[0];
         force += outer;
         moment += outer_product(arm, outer) - outer_product(outer, arm);
         magnitude += outer.norm();
         lever += arm.norm() * outer.norm();
       }
-    return magnitude > 0.
-             ? std::max(force.norm() / magnitude, moment.norm() / lever)
-             : 0.;
+    if (magnitude == 0.)
+      return 0.;
+    // In a state without load what is left over is round-off of earlier ones.
+    largest_force = std::max(largest_force, magnitude);
+    return std::max(force.norm(), moment.norm() * magnitude / lever) /
+           largest_force;
   }
 
   template class PostProcessing<2>;

@@ -5,12 +5,44 @@
 #include <perimorph/output/csv_writer.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 namespace Perimorph::Application
 {
+  namespace
+  {
+    /// |work - energy| relative to the larger one; zero where both are only
+    /// round-off of the largest force times the largest displacement.
+    double
+    energy_balance(const double work, const double energy, const double scale)
+    {
+      const double larger = std::max(std::abs(work), std::abs(energy));
+      return larger > 1e-12 * scale ? std::abs(work - energy) / larger : 0.;
+    }
+
+    /// Removes what an earlier run left in the folder: it must not stand
+    /// beside the results of this one.
+    void
+    remove_old_results(const std::string &folder)
+    {
+      static const std::regex ours(
+        "results\\.json|newton\\.csv|load_steps\\.csv|probe_.*\\.csv|"
+        "(solution|particles)(_[0-9]+\\.vtu|\\.pvd)");
+      std::error_code                    ignored;
+      std::vector<std::filesystem::path> old;
+      for (const auto &entry :
+           std::filesystem::directory_iterator(folder, ignored))
+        if (std::regex_match(entry.path().filename().string(), ours))
+          old.push_back(entry.path());
+      for (const auto &path : old)
+        std::filesystem::remove(path, ignored);
+    }
+  } // namespace
+
   template <int dim>
   Simulation<dim>::Simulation(const SimulationParameters<dim> &parameters,
                               Base::Log                       &log,
@@ -58,9 +90,7 @@ namespace Perimorph::Application
         return;
       std::error_code status;
       std::filesystem::create_directories(folder, status);
-      // Results of an earlier run must not stand beside a run that fails.
-      std::error_code ignored;
-      std::filesystem::remove(folder + "/results.json", ignored);
+      remove_old_results(folder);
       std::ofstream parameter_copy(folder + "/parameters.prm");
       parameter_copy << parameters_text;
       parameter_copy.close();
@@ -193,27 +223,38 @@ namespace Perimorph::Application
   void
   Simulation<dim>::solve_load_steps(Method &method)
   {
-    const auto       &folder = parameters.output_folder;
-    const auto        times  = parameters.times();
-    Output::CsvWriter newton_table(
-      folder + "/newton.csv",
-      {"step", "time", "iteration", "relative_residual", "linear_iterations"},
-      log);
-    Output::CsvWriter step_table(folder + "/load_steps.csv",
-                                 {"step",
-                                  "time",
-                                  "newton_iterations",
-                                  "linear_iterations",
-                                  "relative_residual",
-                                  "strain_energy",
-                                  "external_work",
-                                  "largest_displacement",
-                                  "imbalance"},
-                                 log);
+    const auto                        &folder = parameters.output_folder;
+    const auto                         times  = parameters.times();
+    std::unique_ptr<Output::CsvWriter> newton_table, step_table;
+    Base::collectively(communicator, [&]() {
+      newton_table = std::make_unique<Output::CsvWriter>(
+        folder + "/newton.csv",
+        std::vector<std::string>{"step",
+                                 "time",
+                                 "iteration",
+                                 "relative_residual",
+                                 "linear_iterations"},
+        log);
+      step_table = std::make_unique<Output::CsvWriter>(
+        folder + "/load_steps.csv",
+        std::vector<std::string>{"step",
+                                 "time",
+                                 "newton_iterations",
+                                 "linear_iterations",
+                                 "relative_residual",
+                                 "strain_energy",
+                                 "external_work",
+                                 "largest_displacement",
+                                 "imbalance"},
+        log);
+    });
     files.push_back("newton.csv");
     files.push_back("load_steps.csv");
+    State<dim> previous      = gather(method);
+    double     work          = 0.; // of loads and supports
+    double     largest_force = 0.;
     if (parameters.write_fields)
-      write_fields(method, gather(method), 0, 0.);
+      write_fields(method, previous, 0, 0.);
     for (unsigned int step = 1; step <= times.size(); ++step)
       {
         const double time = times[step - 1];
@@ -234,7 +275,7 @@ namespace Perimorph::Application
                   log << ", " << linear_iterations << " linear iteration"
                       << (linear_iterations == 1 ? "" : "s");
                 log << std::endl;
-                newton_table.write_row(
+                newton_table->write_row(
                   {step, time, iteration, residual, linear_iterations});
               });
           }
@@ -260,24 +301,34 @@ namespace Perimorph::Application
             throw Base::SolveError(text.str());
           }
         remove_mean_rigid_motion(method);
-        const auto state = gather(method);
-        double     work = 0., largest = 0.;
+        const auto state   = gather(method);
+        double     largest = 0.;
         for (unsigned int n = 0; n < state.displacement.size(); ++n)
           {
-            work += state.external_force[n] * state.displacement[n];
+            work += 0.5 *
+                    (post_processing->outer_force(n, previous) +
+                     post_processing->outer_force(n, state)) *
+                    (state.displacement[n] - previous.displacement[n]);
             largest = std::max(largest, state.displacement[n].norm());
           }
-        const double imbalance = post_processing->imbalance(state);
-        step_table.write_row({step,
-                              time,
-                              record.residuals.size() - 1,
-                              record.linear_iterations,
-                              record.residuals.back(),
-                              state.strain_energy,
-                              work,
-                              largest,
-                              imbalance});
+        largest_force =
+          std::max(largest_force, method.equilibrium->largest_force_met());
+        const double imbalance =
+          post_processing->imbalance(state, largest_force);
+        step_table->write_row({step,
+                               time,
+                               record.residuals.size() - 1,
+                               record.linear_iterations,
+                               record.residuals.back(),
+                               state.strain_energy,
+                               work,
+                               largest,
+                               imbalance});
         result->set("checks", "imbalance", imbalance);
+        result->set(
+          "checks",
+          "energy_balance",
+          energy_balance(work, state.strain_energy, largest_force * largest));
         log << "  largest displacement " << largest << ", strain energy "
             << state.strain_energy << ", out-of-balance " << imbalance
             << std::endl;
@@ -286,6 +337,7 @@ namespace Perimorph::Application
                       "out-of-balance force or moment above 1e-6)");
         if (parameters.write_fields)
           write_fields(method, state, step, time);
+        previous = state;
       }
   }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <sstream>
 
 namespace Perimorph::Application
@@ -315,6 +316,22 @@ namespace Perimorph::Application
     reactions =
       Parameters::parse_names(section + "reaction", texts.reaction, errors);
 
+    std::set<std::string> files;
+    if (!points.empty())
+      files.insert("points");
+    const auto claim = [&](const std::string &name, const std::string &entry) {
+      if (!files.insert(name).second)
+        errors.add_parameter(section + entry,
+                             "the name '" + name + "' again",
+                             "names of lines and circles once each, and not "
+                             "'points'",
+                             "The results go into probe_" + name + ".csv.");
+    };
+    for (const auto &line : lines)
+      claim(line.name, "line");
+    for (const auto &circle : circles)
+      claim(circle.name, "circle");
+
     // A single constant traction is the obvious nominal stress.
     const bool nominal_needed =
       !stress_concentration.empty() || !stress_ratios.empty();
@@ -324,12 +341,17 @@ namespace Perimorph::Application
         const auto &loads = boundary_conditions.surface_loads;
         if (loads.size() == 1 && !loads[0].pressure)
           {
-            double square = 0.;
+            double square   = 0.;
+            bool   constant = true;
             for (const auto &component : loads[0].traction)
-              if (component && !component->depends_on_space())
-                square +=
-                  std::pow(component->value(dealii::Point<dim>(), end_time), 2);
-            if (square > 0.)
+              if (component)
+                {
+                  constant = constant && !component->depends_on_space();
+                  square +=
+                    std::pow(component->value(dealii::Point<dim>(), end_time),
+                             2);
+                }
+            if (constant && square > 0.)
               nominal_stress.value = std::sqrt(square);
           }
         if (!nominal_stress.value && errors.empty())

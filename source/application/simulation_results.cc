@@ -125,7 +125,8 @@ namespace Perimorph::Application
         nodal_fields.add("stress_principal_max", principal);
         nodal_fields.add("stress_von_mises", mises);
       }
-    fields->write(step, time, nodal_fields);
+    Base::collectively(communicator,
+                       [&]() { fields->write(step, time, nodal_fields); });
 
     if (!parameters.write_particles ||
         method.region.n_core + method.region.n_blending == 0)
@@ -150,7 +151,9 @@ namespace Perimorph::Application
     particle_fields.add("horizon", horizon);
     particle_fields.add("volume", volume);
     particle_fields.add("damage", damage);
-    fields->write_particles(step, time, nodes, particle_fields);
+    Base::collectively(communicator, [&]() {
+      fields->write_particles(step, time, nodes, particle_fields);
+    });
   }
 
   template <int dim>
@@ -162,9 +165,11 @@ namespace Perimorph::Application
       result->set_quantity(quantity.name, quantity.value, quantity.unit);
     for (const auto &reference : parameters.reference_values)
       result->set_reference(reference.first, reference.second);
-    for (const auto &file :
-         post_processing->write_probes(state, parameters.output_folder))
-      files.push_back(file);
+    Base::collectively(communicator, [&]() {
+      for (const auto &file :
+           post_processing->write_probes(state, parameters.output_folder))
+        files.push_back(file);
+    });
   }
 
   template <int dim>

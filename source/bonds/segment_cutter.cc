@@ -141,20 +141,6 @@ namespace Perimorph
           excess = std::max({excess, -unit_point[d], unit_point[d] - 1.});
         return excess;
       }
-
-      /// Inverse map in coordinates relative to the cell: no digits are lost in
-      /// a small cell far away from the origin.
-      template <int dim>
-      bool
-      to_unit_cell(std::array<dealii::Point<dim>, (1u << dim)> corners,
-                   const dealii::Point<dim>                   &point,
-                   dealii::Point<dim>                         &unit_point)
-      {
-        const dealii::Tensor<1, dim> origin = corners[0] - dealii::Point<dim>();
-        for (auto &corner : corners)
-          corner -= origin;
-        return Mesh::map_to_unit_cell<dim>(corners, point - origin, unit_point);
-      }
     } // namespace
 
     template <int dim>
@@ -285,7 +271,9 @@ namespace Perimorph
           const Candidate   &candidate = candidates[k];
           dealii::Point<dim> unit_point;
           if (!candidate.box.holds(point) ||
-              !to_unit_cell<dim>(candidate.corners, point, unit_point))
+              !Mesh::map_to_unit_cell<dim>(candidate.corners,
+                                           point,
+                                           unit_point))
             continue;
           const double excess = distance_to_unit_cell(unit_point);
           if (excess <= outside_tolerance)
@@ -330,10 +318,12 @@ namespace Perimorph
               const Candidate   &candidate = candidates[place.candidate];
               dealii::Point<dim> unit_begin, unit_end;
               // An end outside the cell means a crossing was missed.
-              if (!to_unit_cell<dim>(candidate.corners,
-                                     at(begin),
-                                     unit_begin) ||
-                  !to_unit_cell<dim>(candidate.corners, at(end), unit_end) ||
+              if (!Mesh::map_to_unit_cell<dim>(candidate.corners,
+                                               at(begin),
+                                               unit_begin) ||
+                  !Mesh::map_to_unit_cell<dim>(candidate.corners,
+                                               at(end),
+                                               unit_end) ||
                   distance_to_unit_cell(unit_begin) > face_tolerance ||
                   distance_to_unit_cell(unit_end) > face_tolerance)
                 return false;

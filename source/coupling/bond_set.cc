@@ -6,48 +6,98 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <optional>
 #include <sstream>
 
 namespace Perimorph::Coupling
 {
   namespace
   {
-    /// Calibrated micromodulus of every node; the mean over the materials of
-    /// the cells at the node.
+    /// Calibrated micromodulus per unit of Young's modulus at the nodes that
+    /// bonds ask for.
     template <int dim>
-    std::vector<double>
-    nodal_micromodulus(const Mesh::NodalMesh<dim>      &mesh,
-                       const std::vector<double>       &horizon,
-                       const std::vector<BondMaterial> &materials)
+    class UnitMicromodulus
     {
-      // The factor depends on the ratio only, and ratios repeat.
-      std::map<double, double> factors;
-      std::vector<double>      result(mesh.n_nodes(), 0.);
-      for (unsigned int n = 0; n < mesh.n_nodes(); ++n)
+    public:
+      UnitMicromodulus(const Mesh::NodalMesh<dim> &mesh,
+                       const std::vector<double>  &horizon,
+                       const Materials::PlaneState state)
+        : mesh(mesh)
+        , horizon(horizon)
+        , state(state)
+      {}
+
+      /// Zero at a finite-element node whose horizon is smaller than the
+      /// spacing: it has no family of its own.
+      double
+      at(const unsigned int n)
+      {
+        if (horizon[n] < mesh.spacing[n] * (1. - 1e-8))
+          return 0.;
+        // Round the ratio so that round-off in the spacing does not make a new
+        // lattice sum for every node.
+        const double ratio =
+          std::round(horizon[n] / mesh.spacing[n] * 1e6) / 1e6;
+        auto known = factors.find(ratio);
+        if (known == factors.end())
+          known =
+            factors.emplace(ratio, Peridynamics::calibration_factor<dim>(ratio))
+              .first;
+        return known->second *
+               Peridynamics::micromodulus(1., horizon[n], state);
+      }
+
+    private:
+      const Mesh::NodalMesh<dim> &mesh;
+      const std::vector<double>  &horizon;
+      const Materials::PlaneState state;
+      std::map<double, double>    factors; ///< ratios repeat
+    };
+
+    /// Young's modulus of a bond by the materials it runs through; none for a
+    /// bond that leaves its material although the elements can stand in for it
+    /// (`drop_mixed`). A bond along an interface counts for the softer side,
+    /// so that no element has to give more than it has.
+    template <int dim>
+    std::optional<double>
+    bond_modulus(const Mesh::NodalMesh<dim>                  &mesh,
+                 const std::vector<BondMaterial>             &materials,
+                 const std::vector<Bonds::SegmentPiece<dim>> &pieces,
+                 const bool                                   drop_mixed)
+    {
+      if (materials.size() == 1)
+        return materials[0].youngs_modulus;
+      // Pieces of one part come in a row, one per cell that shares it.
+      std::vector<bool> covers(materials.size(), true);
+      double            length = 0., compliance = 0.;
+      for (std::size_t first = 0; first < pieces.size();)
         {
-          const auto cells = mesh.node_cells.row(n);
-          for (const unsigned int c : cells)
+          const std::size_t n_shares = std::lround(1. / pieces[first].share);
+          std::vector<bool> here(materials.size(), false);
+          double            softest = std::numeric_limits<double>::max();
+          for (std::size_t k = first; k < first + n_shares; ++k)
             {
-              const auto &material = materials[mesh.cell_material[c]];
-              result[n] += Peridynamics::micromodulus(material.youngs_modulus,
-                                                      horizon[n],
-                                                      material.state) /
-                           cells.size();
+              const unsigned int m = mesh.cell_material[pieces[k].cell];
+              here[m]              = true;
+              softest = std::min(softest, materials[m].youngs_modulus);
             }
-          // Round the ratio so that round-off in the spacing does not make a
-          // new lattice sum for every node.
-          const double ratio =
-            std::round(horizon[n] / mesh.spacing[n] * 1e6) / 1e6;
-          auto known = factors.find(ratio);
-          if (known == factors.end())
-            known =
-              factors
-                .emplace(ratio, Peridynamics::calibration_factor<dim>(ratio))
-                .first;
-          result[n] *= known->second;
+          for (std::size_t m = 0; m < materials.size(); ++m)
+            covers[m] = covers[m] && here[m];
+          length += pieces[first].length;
+          compliance += pieces[first].length / softest;
+          first += n_shares;
         }
-      return result;
+      double modulus = std::numeric_limits<double>::max();
+      for (std::size_t m = 0; m < materials.size(); ++m)
+        if (covers[m])
+          modulus = std::min(modulus, materials[m].youngs_modulus);
+      if (modulus < std::numeric_limits<double>::max())
+        return modulus;
+      if (drop_mixed)
+        return std::nullopt;
+      return length / compliance; // springs in a row
     }
 
     template <int dim>
@@ -80,9 +130,9 @@ namespace Perimorph::Coupling
     const bool                                           with_residual,
     const std::function<void(std::size_t, std::size_t)> &progress)
   {
-    BondCoupling<dim> result;
-    const auto micromodulus = nodal_micromodulus(mesh, horizon, materials);
-    const auto pairs =
+    BondCoupling<dim>     result;
+    UnitMicromodulus<dim> micromodulus(mesh, horizon, materials[0].state);
+    const auto            pairs =
       Bonds::find_bond_pairs(mesh,
                              alpha,
                              horizon,
@@ -103,14 +153,22 @@ namespace Perimorph::Coupling
             result.bonds.n_dropped += pairs.owned[b] ? 1 : 0;
             continue;
           }
+        const auto modulus =
+          bond_modulus(mesh, materials, pieces, with_residual);
+        if (!modulus)
+          continue;
         const auto end = [&](const unsigned int n, const unsigned int k) {
+          const double beta = pairs.beta[b][k];
           return Peridynamics::BondEnd{alpha[n],
-                                       micromodulus[n],
-                                       pairs.beta[b][k],
+                                       beta > 0. ? *modulus * micromodulus.at(n)
+                                                 : 0.,
+                                       beta,
                                        mesh.volume[n]};
         };
         const double stiffness =
           Peridynamics::pair_stiffness(end(i, 0), end(j, 1), length);
+        if (stiffness == 0.)
+          continue;
         ++n_bonds[i];
         ++n_bonds[j];
         if (with_residual)

@@ -1,5 +1,4 @@
 #include <perimorph/base/exceptions.h>
-#include <perimorph/base/point_cloud.h>
 #include <perimorph/bonds/support_search.h>
 #include <perimorph/coupling/consistent_families.h>
 #include <perimorph/mesh/cell_geometry.h>
@@ -212,14 +211,14 @@ namespace Perimorph::Coupling
                      const FamilyParameters     &parameters)
   {
     const auto particles = Bonds::relevant_particles(mesh, alpha, horizon);
-    const Base::PointCloud<dim> cloud(mesh.nodes);
+    const auto supports  = Bonds::find_supports(mesh, particles, horizon);
 
     Peridynamics::FamilySet<dim> set;
     FamilyScratch<dim>           scratch(mesh.n_nodes());
-    std::vector<unsigned int>    near;
-    for (const auto &particle : particles)
+    for (std::size_t p = 0; p < particles.size(); ++p)
       {
-        const unsigned int node = particle.node;
+        const auto        &particle = particles[p];
+        const unsigned int node     = particle.node;
         if (!mesh.owns_node(node))
           continue;
         double volume = 0.;
@@ -235,12 +234,12 @@ namespace Perimorph::Coupling
                       volume += geometry.jxw[q] * geometry.shape_value(q, v);
                 }
             }
-        cloud.within(mesh.nodes[node],
-                     horizon[node] * (1. + Bonds::horizon_slack),
-                     near);
-        for (const unsigned int n : near)
-          for (const unsigned int c : mesh.node_cells.row(n))
-            if (mesh.cell_material[c] == particle.material)
+        // Nodes within the horizon, reached over cells within it: not across a
+        // gap.
+        const double reach = horizon[node] * (1. + Bonds::horizon_slack);
+        for (const unsigned int c : supports.row(p))
+          for (const unsigned int n : mesh.cells[c])
+            if (mesh.nodes[n].distance(mesh.nodes[node]) <= reach)
               scratch.at(n);
         for (const unsigned int n : scratch.sorted_nodes())
           if (n != node)

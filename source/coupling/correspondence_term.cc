@@ -1,23 +1,9 @@
 #include <perimorph/coupling/correspondence_term.h>
 
-#include <deal.II/physics/elasticity/standard_tensors.h>
-
 #include <algorithm>
 
 namespace Perimorph::Coupling
 {
-  namespace
-  {
-    template <int dim>
-    dealii::Tensor<2, dim>
-    deformation_gradient(const dealii::Tensor<2, dim> &H)
-    {
-      return dealii::Tensor<2, dim>(
-               dealii::Physics::Elasticity::StandardTensors<dim>::I) +
-             H;
-    }
-  } // namespace
-
   template <int dim>
   CorrespondenceTerm<dim>::CorrespondenceTerm(
     Peridynamics::FamilySet<dim>   families_,
@@ -116,10 +102,9 @@ namespace Perimorph::Coupling
         relative_displacements(p, displacement.begin(), eta.data());
         const auto one = family(p);
         const auto H   = displacement_gradient(one, eta.data());
-        sum +=
-          families.weight[p] * (materials[families.material[p]]->energy_density(
-                                  deformation_gradient(H)) +
-                                stabilization_energy(one, eta.data(), H));
+        sum += families.weight[p] *
+               (materials[families.material[p]]->energy_density(H) +
+                stabilization_energy(one, eta.data(), H));
       }
     return sum;
   }
@@ -139,8 +124,7 @@ namespace Perimorph::Coupling
         family_forces(one,
                       eta.data(),
                       H,
-                      materials[families.material[p]]->first_piola_kirchhoff(
-                        deformation_gradient(H)),
+                      materials[families.material[p]]->first_piola_kirchhoff(H),
                       forces.data());
         scatter(p, forces.data(), residual.begin());
       }
@@ -158,8 +142,7 @@ namespace Perimorph::Coupling
     std::vector<dealii::Tensor<4, dim>> constant_tangent;
     if (linear)
       for (const auto &material : materials)
-        constant_tangent.push_back(
-          material->tangent(deformation_gradient(dealii::Tensor<2, dim>())));
+        constant_tangent.push_back(material->tangent(dealii::Tensor<2, dim>()));
 
     for (unsigned int p = 0; p < families.n_particles(); ++p)
       {
@@ -173,7 +156,7 @@ namespace Perimorph::Coupling
           {
             relative_displacements(p, displacement.begin(), eta.data());
             A = materials[material]->tangent(
-              deformation_gradient(displacement_gradient(one, eta.data())));
+              displacement_gradient(one, eta.data()));
           }
         relative_displacements(p, direction.begin(), eta.data());
         const auto dH = displacement_gradient(one, eta.data());
@@ -212,10 +195,9 @@ namespace Perimorph::Coupling
     relative_displacements(block, displacement.begin(), eta.data());
     const auto one = family(block);
     const auto H   = displacement_gradient(one, eta.data());
-    family_tangent(
-      one,
-      materials[families.material[block]]->tangent(deformation_gradient(H)),
-      matrix);
+    family_tangent(one,
+                   materials[families.material[block]]->tangent(H),
+                   matrix);
     matrix *= families.weight[block];
   }
 

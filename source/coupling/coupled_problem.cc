@@ -5,7 +5,6 @@
 #include <perimorph/coupling/coupled_problem.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/physics/elasticity/standard_tensors.h>
 
 #include <algorithm>
 #include <cmath>
@@ -347,27 +346,25 @@ namespace Perimorph::Coupling
           all_cells->add_residual(displacement, reference);
           reference.compress(dealii::VectorOperation::add);
 
-          double stress = 0.;
+          // Relative to the stiffest material at the node.
+          std::vector<double> stress;
           for (const auto &law : materials.laws)
-            stress = std::max(
-              stress,
-              law->first_piola_kirchhoff(
-                   dealii::Tensor<2, dim>(
-                     dealii::Physics::Elasticity::StandardTensors<dim>::I) +
-                   1e-6 * strain)
-                  .norm() *
-                1e6);
+            stress.push_back(law->first_piola_kirchhoff(strain).norm());
           for (unsigned int n = 0; n < partition().n_owned(); ++n)
-            for (int d = 0; d < dim; ++d)
-              {
-                const unsigned int node = partition().global(n);
+            {
+              const unsigned int node  = partition().global(n);
+              double             scale = 0.;
+              for (const unsigned int c : nodal.node_cells.row(node))
+                scale = std::max(scale, stress[nodal.cell_material[c]]);
+              scale *= std::pow(nodal.spacing[node], dim - 1);
+              for (int d = 0; d < dim; ++d)
                 if (!excluded(dim * node + d))
-                  worst = std::max(
-                    worst,
-                    std::abs(forces.local_element(dim * n + d) -
-                             reference.local_element(dim * n + d)) /
-                      (stress * std::pow(nodal.spacing[node], dim - 1)));
-              }
+                  worst =
+                    std::max(worst,
+                             std::abs(forces.local_element(dim * n + d) -
+                                      reference.local_element(dim * n + d)) /
+                               scale);
+            }
         }
     return dealii::Utilities::MPI::max(worst, mesh.communicator());
   }

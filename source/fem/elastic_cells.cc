@@ -1,7 +1,5 @@
 #include <perimorph/fem/elastic_cells.h>
 
-#include <deal.II/physics/elasticity/standard_tensors.h>
-
 namespace Perimorph::Fem
 {
   template <int dim>
@@ -82,16 +80,14 @@ namespace Perimorph::Fem
   double
   ElasticCells<dim>::energy(const Vector &displacement) const
   {
-    const auto identity = dealii::Physics::Elasticity::StandardTensors<dim>::I;
-    double     sum      = 0.;
+    double sum = 0.;
     for (const Cell &cell : cells)
       {
         const auto geometry = this->geometry(cell);
         for (unsigned int q = 0; q < n_nodes; ++q)
-          sum +=
-            geometry.jxw[q] * cell.weights[q] *
-            materials[cell.material]->energy_density(
-              identity + gradient(cell, geometry, q, displacement.begin()));
+          sum += geometry.jxw[q] * cell.weights[q] *
+                 materials[cell.material]->energy_density(
+                   gradient(cell, geometry, q, displacement.begin()));
       }
     return sum;
   }
@@ -101,16 +97,14 @@ namespace Perimorph::Fem
   ElasticCells<dim>::add_residual(const Vector &displacement,
                                   Vector       &residual) const
   {
-    const auto identity = dealii::Physics::Elasticity::StandardTensors<dim>::I;
     for (const Cell &cell : cells)
       {
         const auto geometry = this->geometry(cell);
         for (unsigned int q = 0; q < n_nodes; ++q)
           {
-            const auto P =
-              geometry.jxw[q] * cell.weights[q] *
-              materials[cell.material]->first_piola_kirchhoff(
-                identity + gradient(cell, geometry, q, displacement.begin()));
+            const auto P = geometry.jxw[q] * cell.weights[q] *
+                           materials[cell.material]->first_piola_kirchhoff(
+                             gradient(cell, geometry, q, displacement.begin()));
             for (unsigned int v = 0; v < n_nodes; ++v)
               this->add_at(residual.begin(),
                            cell.nodes[v],
@@ -125,14 +119,13 @@ namespace Perimorph::Fem
                                          const Vector &direction,
                                          Vector       &product) const
   {
-    const auto identity = dealii::Physics::Elasticity::StandardTensors<dim>::I;
     for (const Cell &cell : cells)
       {
         const auto geometry = this->geometry(cell);
         for (unsigned int q = 0; q < n_nodes; ++q)
           {
             const auto A = materials[cell.material]->tangent(
-              identity + gradient(cell, geometry, q, displacement.begin()));
+              gradient(cell, geometry, q, displacement.begin()));
             const auto dP = geometry.jxw[q] * cell.weights[q] *
                             dealii::double_contract<2, 0, 3, 1>(
                               A,
@@ -166,16 +159,14 @@ namespace Perimorph::Fem
                                    const Vector               &displacement,
                                    dealii::FullMatrix<double> &matrix) const
   {
-    const auto  identity = dealii::Physics::Elasticity::StandardTensors<dim>::I;
     const Cell &cell     = cells[block];
     const auto  geometry = this->geometry(cell);
     matrix.reinit(dim * n_nodes, dim * n_nodes);
     for (unsigned int q = 0; q < n_nodes; ++q)
       {
-        const auto A =
-          geometry.jxw[q] * cell.weights[q] *
-          materials[cell.material]->tangent(
-            identity + gradient(cell, geometry, q, displacement.begin()));
+        const auto A = geometry.jxw[q] * cell.weights[q] *
+                       materials[cell.material]->tangent(
+                         gradient(cell, geometry, q, displacement.begin()));
         for (unsigned int w = 0; w < n_nodes; ++w)
           {
             // A contracted with one gradient serves all rows.

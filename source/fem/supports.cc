@@ -126,15 +126,18 @@ namespace Perimorph::Fem
             }
         }
     const auto inserted = prescribed.emplace(dof, entry);
-    if (inserted.second || inserted.first->second.label == entry.label)
+    if (inserted.second || inserted.first->second.expression == expression)
       return;
     const Entry &first = inserted.first->second;
     for (const double time : times)
       {
         const double before = value(dof, time);
         const double now = expression ? expression->value(position, time) : 0.;
+        // Below round-off of the coordinates two values are one.
         if (std::abs(before - now) >
-            1e-12 * std::max(std::abs(before), std::abs(now)))
+            1e-12 * std::max({std::abs(before),
+                              std::abs(now),
+                              mesh.nodal().spacing[dof / dim]}))
           {
             std::ostringstream found;
             found << component_letter[dof % dim] << " = " << before

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace Perimorph::Fracture
@@ -44,6 +45,7 @@ namespace Perimorph::Fracture
     // grows away from the plane.
     , cloud(
         std::make_unique<MirroredNodes<dim>>(mesh, planes, 2. * radius_factor))
+    , states(mesh.n_nodes(), NodeState::outside)
   {}
 
   template <int dim>
@@ -75,10 +77,79 @@ namespace Perimorph::Fracture
   DisplacementFit<dim>::touches_material(const unsigned int node,
                                          const int          material) const
   {
+    if (material == any_material)
+      return true;
     for (const unsigned int cell : nodal_mesh.node_cells.row(node))
       if (nodal_mesh.cell_material[cell] == static_cast<unsigned int>(material))
         return true;
     return false;
+  }
+
+  template <int dim>
+  unsigned int
+  DisplacementFit<dim>::nearest_within(const dealii::Point<dim> &point,
+                                       const int                 material) const
+  {
+    unsigned int best     = nearest;
+    double       smallest = std::numeric_limits<double>::max();
+    for (const unsigned int index : within)
+      {
+        const unsigned int n = cloud->node(index);
+        const double       distance =
+          cloud->search().points()[index].distance_square(point);
+        if ((distance < smallest || (distance == smallest && n < best)) &&
+            touches_material(n, material))
+          {
+            smallest = distance;
+            best     = n;
+          }
+      }
+    return best;
+  }
+
+  template <int dim>
+  void
+  DisplacementFit<dim>::find_nodes(const dealii::Point<dim> &point,
+                                   const double              radius,
+                                   const int                 material,
+                                   unsigned int              seed) const
+  {
+    found.clear();
+    cloud->search().within(point, radius, within);
+    if (seed == nearest)
+      seed = nearest_within(point, material);
+    if (seed == nearest) // no node at all
+      return;
+
+    for (const unsigned int index : within)
+      states[cloud->node(index)] = NodeState::within;
+    states[seed] = NodeState::reached;
+    front.assign(1, seed);
+    for (std::size_t next = 0; next < front.size(); ++next)
+      for (const unsigned int cell : nodal_mesh.node_cells.row(front[next]))
+        if (material == any_material || nodal_mesh.cell_material[cell] ==
+                                          static_cast<unsigned int>(material))
+          for (const unsigned int n : nodal_mesh.cells[cell])
+            if (states[n] == NodeState::within)
+              {
+                states[n] = NodeState::reached;
+                front.push_back(n);
+              }
+    for (const unsigned int index : within)
+      if (states[cloud->node(index)] == NodeState::reached)
+        found.push_back(index);
+
+    for (const unsigned int index : within)
+      states[cloud->node(index)] = NodeState::outside;
+    states[seed] = NodeState::outside;
+
+    if (visible)
+      found.erase(std::remove_if(found.begin(),
+                                 found.end(),
+                                 [&](const unsigned int index) {
+                                   return !visible(point, cloud->node(index));
+                                 }),
+                  found.end());
   }
 
   template <int dim>
@@ -89,20 +160,11 @@ namespace Perimorph::Fracture
     const double                               length,
     const double                               radius,
     const int                                  material,
+    const unsigned int                         seed,
     const std::vector<dealii::Tensor<1, dim>> &displacement,
     FitResult<dim>                            &result) const
   {
-    std::vector<unsigned int> found;
-    cloud->search().within(point, radius, found);
-    found.erase(std::remove_if(found.begin(),
-                               found.end(),
-                               [&](const unsigned int index) {
-                                 const unsigned int n = cloud->node(index);
-                                 return (material != any_material &&
-                                         !touches_material(n, material)) ||
-                                        (visible && !visible(point, n));
-                               }),
-                found.end());
+    find_nodes(point, radius, material, seed);
     const unsigned int n_rows = found.size();
     if (n_rows < n_columns)
       return false;
@@ -189,7 +251,8 @@ namespace Perimorph::Fracture
     const dealii::Point<dim>                  &point,
     const double                               length,
     const int                                  material,
-    const std::vector<dealii::Tensor<1, dim>> &displacement) const
+    const std::vector<dealii::Tensor<1, dim>> &displacement,
+    const unsigned int                         seed) const
   {
     FitResult<dim> result;
     double         radius = radius_factor * length;
@@ -198,31 +261,21 @@ namespace Perimorph::Fracture
                            length,
                            radius,
                            material,
+                           seed,
                            displacement,
                            result))
         return result;
     radius = radius_factor * length;
     for (unsigned int n = 0; n <= n_enlargements; ++n, radius *= enlargement)
-      if (try_fit<dim +
-                  1>(point, length, radius, material, displacement, result))
+      if (try_fit<dim + 1>(point,
+                           length,
+                           radius,
+                           material,
+                           seed,
+                           displacement,
+                           result))
         return result;
     return result;
-  }
-
-  template <int dim>
-  std::vector<FitResult<dim>>
-  DisplacementFit<dim>::fit_nodes(
-    const std::vector<unsigned int>           &nodes,
-    const std::vector<dealii::Tensor<1, dim>> &displacement) const
-  {
-    std::vector<FitResult<dim>> results;
-    results.reserve(nodes.size());
-    for (const unsigned int n : nodes)
-      results.push_back(fit(nodal_mesh.nodes[n],
-                            nodal_mesh.spacing[n],
-                            any_material,
-                            displacement));
-    return results;
   }
 
   template class DisplacementFit<2>;

@@ -53,9 +53,7 @@ namespace Perimorph::Fracture
               const std::vector<dealii::Tensor<1, dim>> &reference,
               const MPI_Comm                             communicator)
   {
-    dealii::Tensor<2, dim> rest;
-    for (int d = 0; d < dim; ++d)
-      rest[d][d] = 1.;
+    const dealii::Tensor<2, dim>        rest;
     std::vector<dealii::Tensor<4, dim>> tangents;
     for (const auto &material : materials)
       tangents.push_back(material->tangent(rest));

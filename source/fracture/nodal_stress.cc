@@ -77,14 +77,11 @@ namespace Perimorph::Fracture
   stress_of_gradient(const Materials::Material<dim> &material,
                      const dealii::Tensor<2, dim>   &gradient)
   {
-    dealii::Tensor<2, dim> deformation_gradient = gradient;
-    for (int d = 0; d < dim; ++d)
-      deformation_gradient[d][d] += 1.;
     Stress<dim> stress;
     stress.in_plane =
-      dealii::symmetrize(material.first_piola_kirchhoff(deformation_gradient));
+      dealii::symmetrize(material.first_piola_kirchhoff(gradient));
     if (dim == 2)
-      stress.out_of_plane = material.out_of_plane_stress(deformation_gradient);
+      stress.out_of_plane = material.out_of_plane_stress(gradient);
     return stress;
   }
 
@@ -106,13 +103,15 @@ namespace Perimorph::Fracture
     const dealii::Point<dim>                  &point,
     const double                               length,
     const unsigned int                         material,
+    const unsigned int                         seed,
     const std::vector<dealii::Tensor<1, dim>> &displacement) const
   {
     const int restriction = single_material ? DisplacementFit<dim>::any_material
                                             : static_cast<int>(material);
     return stress_of_gradient(
       *materials[material],
-      displacement_fit.fit(point, length, restriction, displacement).gradient);
+      displacement_fit.fit(point, length, restriction, displacement, seed)
+        .gradient);
   }
 
   template <int dim>
@@ -131,7 +130,11 @@ namespace Perimorph::Fracture
     for (const auto &[material, n_cells] : n_cells_of)
       add(mean,
           double(n_cells) / cells.size(),
-          fitted(mesh.nodes[node], mesh.spacing[node], material, displacement));
+          fitted(mesh.nodes[node],
+                 mesh.spacing[node],
+                 material,
+                 node,
+                 displacement));
     return mean;
   }
 
@@ -153,12 +156,13 @@ namespace Perimorph::Fracture
   NodalStress<dim>::at_point(
     const dealii::Point<dim>                  &point,
     const unsigned int                         material,
-    const std::vector<dealii::Tensor<1, dim>> &displacement) const
+    const std::vector<dealii::Tensor<1, dim>> &displacement,
+    const unsigned int                         seed) const
   {
-    return fitted(point,
-                  displacement_fit.length_at(point),
-                  material,
-                  displacement);
+    const double length = seed == DisplacementFit<dim>::nearest
+                            ? displacement_fit.length_at(point)
+                            : displacement_fit.mesh().spacing[seed];
+    return fitted(point, length, material, seed, displacement);
   }
 
   template <int dim>

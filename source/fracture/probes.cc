@@ -226,6 +226,24 @@ namespace Perimorph::Fracture
   }
 
   template <int dim>
+  unsigned int
+  PointProbe<dim>::nearest_node_of(const unsigned int        cell,
+                                   const dealii::Point<dim> &point) const
+  {
+    const auto        &nodes   = recovery.fit().mesh().nodes;
+    const auto        &corners = recovery.fit().mesh().cells[cell];
+    const unsigned int nearest = recovery.fit().nearest_node(point);
+    if (std::find(corners.begin(), corners.end(), nearest) != corners.end())
+      return nearest;
+    return *std::min_element(corners.begin(),
+                             corners.end(),
+                             [&](const unsigned int a, const unsigned int b) {
+                               return nodes[a].distance_square(point) <
+                                      nodes[b].distance_square(point);
+                             });
+  }
+
+  template <int dim>
   Stress<dim>
   PointProbe<dim>::stress_at(
     const dealii::Point<dim>                  &point,
@@ -234,7 +252,8 @@ namespace Perimorph::Fracture
     const unsigned int cell = locate(point).cell;
     return recovery.at_point(point,
                              recovery.fit().mesh().cell_material[cell],
-                             displacement);
+                             displacement,
+                             nearest_node_of(cell, point));
   }
 
   template <int dim>

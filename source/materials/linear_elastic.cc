@@ -6,16 +6,6 @@ namespace Perimorph
 {
   namespace Materials
   {
-    namespace
-    {
-      template <int dim>
-      dealii::SymmetricTensor<2, dim>
-      small_strain(const dealii::Tensor<2, dim> &F)
-      {
-        return symmetrize(F) - dealii::unit_symmetric_tensor<dim>();
-      }
-    } // namespace
-
     template <int dim>
     LinearElastic<dim>::LinearElastic(const double     youngs_modulus,
                                       const double     poissons_ratio,
@@ -46,9 +36,9 @@ namespace Perimorph
 
     template <int dim>
     double
-    LinearElastic<dim>::energy_density(const dealii::Tensor<2, dim> &F) const
+    LinearElastic<dim>::energy_density(const dealii::Tensor<2, dim> &H) const
     {
-      const auto   strain     = small_strain(F);
+      const auto   strain     = symmetrize(H);
       const double dilatation = trace(strain);
       return 0.5 * lame_lambda * dilatation * dilatation +
              lame_mu * (strain * strain);
@@ -57,9 +47,9 @@ namespace Perimorph
     template <int dim>
     dealii::Tensor<2, dim>
     LinearElastic<dim>::first_piola_kirchhoff(
-      const dealii::Tensor<2, dim> &F) const
+      const dealii::Tensor<2, dim> &H) const
     {
-      const auto strain = small_strain(F);
+      const auto strain = symmetrize(H);
       return lame_lambda * trace(strain) *
                dealii::unit_symmetric_tensor<dim>() +
              2. * lame_mu * strain;
@@ -83,10 +73,10 @@ namespace Perimorph
     template <int dim>
     double
     LinearElastic<dim>::out_of_plane_stress(
-      const dealii::Tensor<2, dim> &F) const
+      const dealii::Tensor<2, dim> &H) const
     {
       return state == PlaneState::plane_strain
-               ? lame_lambda * trace(small_strain(F))
+               ? lame_lambda * trace(symmetrize(H))
                : 0.;
     }
 

@@ -117,19 +117,32 @@ namespace Perimorph
                      const dealii::Point<dim>                          &point,
                      dealii::Point<dim> &unit_point)
     {
+      // Relative to the first corner and to the size of the cell: far from the
+      // origin absolute coordinates have no digits left for a small cell.
+      double size = 0.;
+      for (const auto &corner : corners)
+        size = std::max(size, corner.distance(corners[0]));
+      std::array<dealii::Point<dim>, (1u << dim)> scaled;
+      for (unsigned int v = 0; v < corners.size(); ++v)
+        scaled[v] = dealii::Point<dim>((corners[v] - corners[0]) / size);
+      const dealii::Point<dim> target((point - corners[0]) / size);
+
+      const auto error_at = [&](const dealii::Point<dim> &unit) {
+        const auto             values = shape_values<dim>(unit);
+        dealii::Tensor<1, dim> error  = target;
+        for (unsigned int v = 0; v < scaled.size(); ++v)
+          error -= values[v] * scaled[v];
+        return error;
+      };
       for (int d = 0; d < dim; ++d)
         unit_point[d] = 0.5;
       for (unsigned int iteration = 0; iteration < 30; ++iteration)
         {
-          const auto         values = shape_values<dim>(unit_point);
-          dealii::Point<dim> image;
-          for (unsigned int v = 0; v < corners.size(); ++v)
-            image += values[v] * corners[v];
-          const auto jacobian = jacobian_at<dim>(corners, unit_point);
+          const auto jacobian = jacobian_at<dim>(scaled, unit_point);
           if (!(std::abs(determinant(jacobian)) > 0.))
             return false;
           const dealii::Tensor<1, dim> step =
-            invert(jacobian) * (point - image);
+            invert(jacobian) * error_at(unit_point);
           unit_point += step;
           if (!(unit_point.norm() < 1e3))
             return false;
@@ -137,12 +150,7 @@ namespace Perimorph
             return true;
         }
       // Stagnation at round-off level is convergence too.
-      const auto         values = shape_values<dim>(unit_point);
-      dealii::Point<dim> image;
-      for (unsigned int v = 0; v < corners.size(); ++v)
-        image += values[v] * corners[v];
-      return image.distance(point) <=
-             1e-12 * corners[0].distance(corners.back());
+      return error_at(unit_point).norm() <= 1e-11;
     }
 
     template <int dim>

@@ -133,6 +133,10 @@ CONDITIONS = [
         "contradicting supports", "x = 0 from the symmetry of 'left' but 0.1",
         "displacement of 'top'", "at the node (0 1)", "one value per node"],
         {DISPLACEMENT: "top: x = 0.1"}),
+    row("contradicting displacements of one point", [
+        "contradicting supports", "point displacement at (1, 1)",
+        "one value per node"],
+        {POINT_DISPLACEMENT: "1 1: x = 0.1; 1 1: x = 0.2"}),
     row("contradicting supports in time", [
         "contradicting supports", "t = 1"],
         {DISPLACEMENT: "top: x = 0.1*t*(t - 0.5)",
@@ -215,6 +219,18 @@ QUANTITIES = [
         "'Quantities / nominal stress'", "found nothing",
         "'reaction of NAME'"], {CONCENTRATION: "top", TRACTION: None,
                                 DISPLACEMENT: "right: x = 0.1"}),
+    row("nominal stress of a traction that varies", [
+        "'Quantities / nominal stress'", "found nothing"],
+        {CONCENTRATION: "left", NOMINAL: None,
+         TRACTION: "right: x = 10*y, y = 0.001"}),
+    row("nominal stress of a boundary without support", [
+        "'Quantities / nominal stress'", "'right'",
+        "which no condition supports"],
+        {CONCENTRATION: "left", NOMINAL: "reaction of right"}),
+    row("one name for two probes", [
+        "'Quantities / circle'", "the name 'a' again", "probe_a.csv"],
+        {"Quantities/line": "a: 0.1 0.5 to 0.9 0.5, 5 points",
+         "Quantities/circle": "a: center 0.5 0.5, radius 0.2, 5 points"}),
     row("nominal stress zero", [
         "'Quantities / nominal stress'", "found '0'", "other than 0"],
         {CONCENTRATION: "top", NOMINAL: "0"}),

@@ -68,8 +68,13 @@ namespace Perimorph::Application
 
     /// Largest of the force and moment that is left over when loads and
     /// reactions are added up, relative to the sum of their magnitudes.
+    /// @param[in,out] largest_force  largest such sum of the run so far
     double
-    imbalance(const State<dim> &state) const;
+    imbalance(const State<dim> &state, double &largest_force) const;
+
+    /// Force of the loads and supports at a node.
+    dealii::Tensor<1, dim>
+    outer_force(unsigned int node, const State<dim> &state) const;
 
   private:
     void
@@ -80,6 +85,10 @@ namespace Perimorph::Application
 
     double
     nominal_stress(const State<dim> &state) const;
+
+    /// Integral of the outward normal.
+    dealii::Tensor<1, dim>
+    vector_area(const std::string &boundary) const;
 
     /// Force of the supports of a boundary: at a node shared with another
     /// supported boundary each component counts for the condition that set it.

@@ -35,9 +35,9 @@ namespace Perimorph::Coupling
     std::vector<typename SegmentResidual<dim>::PointTensors> tensors;
   };
 
-  /// Finds the bonds, drops those that leave the body, calibrates them on an
-  /// ideal lattice, and computes the residual tensors (numerics-explicit.md,
-  /// section 3).
+  /// Finds the bonds, drops those that leave the body or their material,
+  /// calibrates them on an ideal lattice, and computes the residual tensors
+  /// (numerics-explicit.md, section 3).
   ///
   /// @param alpha  blending weight per node
   /// @param with_residual  false for the uncorrected couplings

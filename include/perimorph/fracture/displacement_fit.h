@@ -28,11 +28,17 @@ namespace Perimorph::Fracture
   /// Displacement and its gradient at any point of the body by weighted least
   /// squares with a complete quadratic polynomial (6 terms in 2D, 10 in 3D)
   /// over the nodes within a radius, weight exp(-sharpness (r / radius)^2).
-  /// Second order up to free surfaces, and independent of the connectivity of
-  /// the mesh (numerics.md, D6).
+  /// Second order up to free surfaces (numerics.md, D6).
+  ///
+  /// Of the connectivity of the mesh only this matters: the nodes used are
+  /// those reached from one of them, the seed, over cells without leaving the
+  /// radius. Nothing is mixed across a gap, a notch or a meshed slit, unless
+  /// its end lies within the radius.
   ///
   /// Nodes near planes of symmetry also count as mirrored copies, products of
-  /// several planes included.
+  /// several planes included; a copy is reached if its original is.
+  ///
+  /// Fits share work arrays: not for several threads at once.
   template <int dim>
   class DisplacementFit
   {
@@ -43,6 +49,7 @@ namespace Perimorph::Fracture
       std::function<bool(const dealii::Point<dim> &point, unsigned int node)>;
 
     static constexpr int          any_material = -1;
+    static constexpr unsigned int nearest      = static_cast<unsigned int>(-1);
     static constexpr unsigned int n_terms      = (dim + 1) * (dim + 2) / 2;
 
     /// @param mesh           kept as a reference
@@ -74,16 +81,15 @@ namespace Perimorph::Fracture
     /// @param material      only nodes on cells of this material, so that the
     ///                      kink at an interface stays sharp; or any_material
     /// @param displacement  one vector per node of the mesh
+    /// @param seed          node on the side of the point, on a cell of the
+    ///                      material; nearest: the nearest such node (of two
+    ///                      in one place, on a slit, the lower number)
     FitResult<dim>
     fit(const dealii::Point<dim>                  &point,
         double                                     length,
         int                                        material,
-        const std::vector<dealii::Tensor<1, dim>> &displacement) const;
-
-    /// Fits at nodes, each with its own spacing and nodes of any material.
-    std::vector<FitResult<dim>>
-    fit_nodes(const std::vector<unsigned int>           &nodes,
-              const std::vector<dealii::Tensor<1, dim>> &displacement) const;
+        const std::vector<dealii::Tensor<1, dim>> &displacement,
+        unsigned int                               seed = nearest) const;
 
     const Mesh::NodalMesh<dim> &
     mesh() const
@@ -98,12 +104,36 @@ namespace Perimorph::Fracture
     std::unique_ptr<MirroredNodes<dim>> cloud;
     VisibilityTest                      visible;
 
+    enum class NodeState : unsigned char
+    {
+      outside, ///< between two searches: all nodes
+      within,  ///< the radius, itself or a copy
+      reached
+    };
+    mutable std::vector<NodeState>    states; ///< of all nodes
+    mutable std::vector<unsigned int> within; ///< points in the radius
+    mutable std::vector<unsigned int> found;  ///< those of them to be used
+    mutable std::vector<unsigned int> front;  ///< nodes reached, in turn
+
+    /// Fills found with the points within the radius that are reached from
+    /// the seed and visible.
+    void
+    find_nodes(const dealii::Point<dim> &point,
+               double                    radius,
+               int                       material,
+               unsigned int              seed) const;
+
+    /// Of the points in the list within, the nearest node on the material.
+    unsigned int
+    nearest_within(const dealii::Point<dim> &point, int material) const;
+
     template <int n_columns>
     bool
     try_fit(const dealii::Point<dim>                  &point,
             double                                     length,
             double                                     radius,
             int                                        material,
+            unsigned int                               seed,
             const std::vector<dealii::Tensor<1, dim>> &displacement,
             FitResult<dim>                            &result) const;
 

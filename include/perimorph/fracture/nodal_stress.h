@@ -67,10 +67,13 @@ namespace Perimorph::Fracture
              const std::vector<dealii::Tensor<1, dim>> &displacement) const;
 
     /// @param material  index of the material the point lies in
+    /// @param seed      a node of the cell the point lies in; default: the
+    ///                  nearest node
     Stress<dim>
     at_point(const dealii::Point<dim>                  &point,
              unsigned int                               material,
-             const std::vector<dealii::Tensor<1, dim>> &displacement) const;
+             const std::vector<dealii::Tensor<1, dim>> &displacement,
+             unsigned int seed = DisplacementFit<dim>::nearest) const;
 
     const DisplacementFit<dim> &
     fit() const
@@ -88,6 +91,7 @@ namespace Perimorph::Fracture
     fitted(const dealii::Point<dim>                  &point,
            double                                     length,
            unsigned int                               material,
+           unsigned int                               seed,
            const std::vector<dealii::Tensor<1, dim>> &displacement) const;
   };
 

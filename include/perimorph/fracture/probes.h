@@ -74,7 +74,8 @@ namespace Perimorph::Fracture
       const dealii::Point<dim>                  &point,
       const std::vector<dealii::Tensor<1, dim>> &displacement) const;
 
-    /// Recovered with nodes of the material of the cell around the point.
+    /// Recovered on the side of the cell around the point, with nodes of its
+    /// material.
     Stress<dim>
     stress_at(const dealii::Point<dim>                  &point,
               const std::vector<dealii::Tensor<1, dim>> &displacement) const;
@@ -92,6 +93,11 @@ namespace Perimorph::Fracture
 
     const NodalStress<dim>     &recovery;
     std::unique_ptr<CellSearch> search;
+
+    /// The nearest node of the mesh if it is on the cell, else that of the
+    /// cell.
+    unsigned int
+    nearest_node_of(unsigned int cell, const dealii::Point<dim> &point) const;
   };
 
   /// Writes <folder>/probe_<name>.csv with 12 digits; rank 0 only.

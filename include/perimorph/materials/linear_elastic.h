@@ -15,7 +15,7 @@ namespace Perimorph
     };
 
     /// Isotropic linear elasticity at small strain:
-    /// P = lambda tr(e) I + 2 mu e with e = sym(F - I). In plane stress lambda
+    /// P = lambda tr(e) I + 2 mu e with e = sym(H). In plane stress lambda
     /// is replaced by 2 lambda mu / (lambda + 2 mu).
     template <int dim>
     class LinearElastic : public Material<dim>
@@ -32,13 +32,13 @@ namespace Perimorph
       bool
       is_linear() const override;
       double
-      energy_density(const dealii::Tensor<2, dim> &F) const override;
+      energy_density(const dealii::Tensor<2, dim> &H) const override;
       dealii::Tensor<2, dim>
-      first_piola_kirchhoff(const dealii::Tensor<2, dim> &F) const override;
+      first_piola_kirchhoff(const dealii::Tensor<2, dim> &H) const override;
       dealii::Tensor<4, dim>
-      tangent(const dealii::Tensor<2, dim> &F) const override;
+      tangent(const dealii::Tensor<2, dim> &H) const override;
       double
-      out_of_plane_stress(const dealii::Tensor<2, dim> &F) const override;
+      out_of_plane_stress(const dealii::Tensor<2, dim> &H) const override;
       double
       shear_modulus() const override;
 

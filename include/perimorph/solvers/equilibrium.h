@@ -68,6 +68,13 @@ namespace Perimorph::Solvers
       return external;
     }
 
+    /// Largest norm of loads, reactions or residuals over the solves so far.
+    double
+    largest_force_met() const
+    {
+      return largest_force;
+    }
+
   private:
     void
     prepare_linear_solver(const Vector &displacement);

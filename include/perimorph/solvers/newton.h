@@ -16,7 +16,7 @@ namespace Perimorph::Solvers
   struct ResidualNorms
   {
     double residual; ///< of the free equations
-    double scale;    ///< largest of loads, reactions and internal forces
+    double scale;    ///< largest load, reaction or residual so far
   };
 
   /// What one solve by Newton's method did.

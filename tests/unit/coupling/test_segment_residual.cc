@@ -163,10 +163,8 @@ namespace
       1.,
       Peridynamics::allowed_poissons_ratio(state<dim>),
       state<dim>);
-    const auto identity = dealii::unit_symmetric_tensor<dim>();
-    const auto stress   = material.first_piola_kirchhoff(
-      dealii::Tensor<2, dim>(identity) + gradient);
-    double largest = 0.;
+    const auto stress  = material.first_piola_kirchhoff(gradient);
+    double     largest = 0.;
     for (unsigned int n = 0; n < mesh.n_nodes(); ++n)
       largest =
         std::max(largest,

@@ -4,21 +4,10 @@
 #include <gtest/gtest.h>
 #include <harness/test_meshes.h>
 
-#include <numeric>
-
 namespace
 {
   using namespace Perimorph;
   using namespace Perimorph::Fracture;
-
-  template <int dim>
-  std::vector<unsigned int>
-  all_nodes(const Mesh::NodalMesh<dim> &mesh)
-  {
-    std::vector<unsigned int> nodes(mesh.n_nodes());
-    std::iota(nodes.begin(), nodes.end(), 0u);
-    return nodes;
-  }
 
   template <int dim>
   void
@@ -29,15 +18,18 @@ namespace
       Testing::nodal_values<dim>(mesh, [](const auto &x) {
         return Testing::quadratic_field<dim>(x, false);
       });
-    const auto results = fit.fit_nodes(all_nodes(mesh), displacement);
     for (unsigned int n = 0; n < mesh.n_nodes(); ++n)
       {
-        EXPECT_TRUE(results[n].quadratic) << mesh.nodes[n];
-        EXPECT_LT((results[n].displacement - displacement[n]).norm(), 1e-10);
-        EXPECT_LT((results[n].gradient -
-                   Testing::quadratic_gradient<dim>(mesh.nodes[n]))
-                    .norm(),
-                  1e-10)
+        const auto result = fit.fit(mesh.nodes[n],
+                                    mesh.spacing[n],
+                                    fit.any_material,
+                                    displacement);
+        EXPECT_TRUE(result.quadratic) << mesh.nodes[n];
+        EXPECT_LT((result.displacement - displacement[n]).norm(), 1e-10);
+        EXPECT_LT(
+          (result.gradient - Testing::quadratic_gradient<dim>(mesh.nodes[n]))
+            .norm(),
+          1e-10)
           << mesh.nodes[n];
       }
   }

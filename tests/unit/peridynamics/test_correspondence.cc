@@ -50,23 +50,13 @@ namespace Perimorph::Peridynamics
     };
 
     template <int dim>
-    dealii::Tensor<2, dim>
-    identity()
-    {
-      dealii::Tensor<2, dim> I;
-      for (int d = 0; d < dim; ++d)
-        I[d][d] = 1.;
-      return I;
-    }
-
-    template <int dim>
     double
     energy(const Family<dim>                   &family,
            const Materials::Material<dim>      &law,
            std::vector<dealii::Tensor<1, dim>> &eta)
     {
       const auto H = displacement_gradient(family, eta.data());
-      return law.energy_density(identity<dim>() + H) +
+      return law.energy_density(H) +
              stabilization_energy(family, eta.data(), H);
     }
 
@@ -81,7 +71,7 @@ namespace Perimorph::Peridynamics
       family_forces(family,
                     eta.data(),
                     H,
-                    law.first_piola_kirchhoff(identity<dim>() + H),
+                    law.first_piola_kirchhoff(H),
                     result.data());
       return result;
     }
@@ -100,7 +90,7 @@ namespace Perimorph::Peridynamics
       const auto                 force = forces(family, law, data.eta);
       const double               step  = 1e-4;
       dealii::FullMatrix<double> tangent;
-      family_tangent(family, law.tangent(identity<dim>()), tangent);
+      family_tangent(family, law.tangent(dealii::Tensor<2, dim>()), tangent);
       ASSERT_EQ(tangent.m(), dim * 9u);
       for (unsigned int j = 0; j < 8; ++j)
         for (int d = 0; d < dim; ++d)
