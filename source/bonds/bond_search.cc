@@ -1,11 +1,11 @@
+#include <perimorph/base/point_cloud.h>
 #include <perimorph/bonds/bond_search.h>
 
 #include <deal.II/base/exceptions.h>
 
-#include <nanoflann.hpp>
-
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace Perimorph
 {
@@ -13,75 +13,6 @@ namespace Perimorph
   {
     namespace
     {
-      /// Some nodes of the mesh as nanoflann wants to see them.
-      template <int dim>
-      struct NodeCloud
-      {
-        const std::vector<dealii::Point<dim>> &nodes;
-        std::vector<unsigned int>              chosen;
-
-        std::size_t
-        kdtree_get_point_count() const
-        {
-          return chosen.size();
-        }
-        double
-        kdtree_get_pt(const std::size_t k, const std::size_t axis) const
-        {
-          return nodes[chosen[k]][axis];
-        }
-        template <typename Box>
-        bool
-        kdtree_get_bbox(Box &) const
-        {
-          return false;
-        }
-      };
-
-      template <int dim>
-      using Tree = nanoflann::KDTreeSingleIndexAdaptor<
-        nanoflann::L2_Simple_Adaptor<double, NodeCloud<dim>>,
-        NodeCloud<dim>,
-        dim,
-        unsigned int>;
-
-      /// Collects everything within a radius, in the interface nanoflann calls.
-      class Collector
-      {
-      public:
-        Collector(const double radius, std::vector<unsigned int> &found)
-          : radius_square(radius * radius)
-          , found(found)
-        {}
-
-        std::size_t
-        size() const
-        {
-          return found.size();
-        }
-        bool
-        full() const
-        {
-          return true;
-        }
-        bool
-        addPoint(const double distance_square, const unsigned int k)
-        {
-          if (distance_square < radius_square)
-            found.push_back(k);
-          return true;
-        }
-        double
-        worstDist() const
-        {
-          return radius_square;
-        }
-
-      private:
-        double                     radius_square;
-        std::vector<unsigned int> &found;
-      };
-
       template <int dim>
       struct Box
       {
@@ -162,19 +93,19 @@ namespace Perimorph
 
       // A node without weight only bonds with nodes that have some: it asks the
       // second tree, which is empty or far away for most nodes of a large mesh.
-      NodeCloud<dim> all{mesh.nodes, {}};
-      NodeCloud<dim> weighted{mesh.nodes, {}};
+      std::vector<unsigned int>       weighted_nodes;
+      std::vector<dealii::Point<dim>> weighted_points;
       for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
-        {
-          all.chosen.push_back(node);
-          if (alpha[node] > 0.)
-            weighted.chosen.push_back(node);
-        }
+        if (alpha[node] > 0.)
+          {
+            weighted_nodes.push_back(node);
+            weighted_points.push_back(mesh.nodes[node]);
+          }
       BondPairs pairs;
-      if (weighted.chosen.empty())
+      if (weighted_nodes.empty())
         return pairs;
-      const Tree<dim> tree_of_all(dim, all);
-      const Tree<dim> tree_of_weighted(dim, weighted);
+      const Base::PointCloud<dim> all(mesh.nodes);
+      const Base::PointCloud<dim> weighted(std::move(weighted_points));
 
       const bool     everything = selection == BondSelection::all;
       const Box<dim> rank_box =
@@ -190,16 +121,13 @@ namespace Perimorph
           if (!everything && !reach_box.overlaps(rank_box))
             continue;
 
-          const bool  has_weight = alpha[i] > 0.;
-          const auto &tree       = has_weight ? tree_of_all : tree_of_weighted;
-          const auto &cloud      = has_weight ? all : weighted;
-          neighbours.clear();
-          Collector collector(reach, neighbours);
-          tree.radiusSearchCustomCallback(&mesh.nodes[i][0], collector);
+          const bool has_weight = alpha[i] > 0.;
+          (has_weight ? all : weighted)
+            .within(mesh.nodes[i], reach, neighbours);
 
           for (const unsigned int k : neighbours)
             {
-              const unsigned int j = cloud.chosen[k];
+              const unsigned int j = has_weight ? k : weighted_nodes[k];
               if (j == i)
                 continue;
               const unsigned int a = std::min(i, j);

@@ -73,6 +73,29 @@ namespace Perimorph::Coupling
       return K;
     }
 
+    /// Adds a bond from `node` to the row that is being written.
+    template <int dim>
+    void
+    append_bond(const Mesh::NodalMesh<dim>           &mesh,
+                const unsigned int                    node,
+                const unsigned int                    neighbor,
+                const dealii::Tensor<1, dim>         &gradient_weight,
+                const double                          horizon,
+                const Peridynamics::InfluenceFunction influence,
+                Peridynamics::FamilySet<dim>         &set)
+    {
+      const double r =
+        mesh.nodes[neighbor].distance(mesh.nodes[node]) / horizon;
+      const double in_horizon = r <= 1. + Bonds::horizon_slack
+                                  ? Peridynamics::influence(influence, r)
+                                  : 0.;
+      set.neighbor.push_back(neighbor);
+      set.gradient_weight.push_back(gradient_weight);
+      set.bond_weight.push_back(
+        mesh.volume[neighbor] *
+        std::max(in_horizon, Peridynamics::smallest_influence));
+    }
+
     template <int dim>
     void
     close_family(const Mesh::NodalMesh<dim>   &mesh,
@@ -185,18 +208,13 @@ namespace Perimorph::Coupling
           }
         for (const unsigned int n : scratch.sorted_nodes())
           if (n != node)
-            {
-              const double r =
-                mesh.nodes[n].distance(mesh.nodes[node]) / horizon[node];
-              set.neighbor.push_back(n);
-              set.gradient_weight.push_back(scratch.at(n) / weight);
-              set.bond_weight.push_back(
-                mesh.volume[n] *
-                std::max(r <= 1. + Bonds::horizon_slack
-                           ? Peridynamics::influence(parameters.influence, r)
-                           : 0.,
-                         Peridynamics::smallest_influence));
-            }
+            append_bond(mesh,
+                        node,
+                        n,
+                        scratch.at(n) / weight,
+                        horizon[node],
+                        parameters.influence,
+                        set);
         scratch.clear();
         close_family(mesh, particles[p], weight, parameters, set, false);
       }
@@ -243,18 +261,13 @@ namespace Perimorph::Coupling
               scratch.at(n);
         for (const unsigned int n : scratch.sorted_nodes())
           if (n != node)
-            {
-              const double r =
-                mesh.nodes[n].distance(mesh.nodes[node]) / horizon[node];
-              set.neighbor.push_back(n);
-              set.gradient_weight.push_back(dealii::Tensor<1, dim>());
-              set.bond_weight.push_back(
-                mesh.volume[n] *
-                std::max(r <= 1. + Bonds::horizon_slack
-                           ? Peridynamics::influence(parameters.influence, r)
-                           : 0.,
-                         Peridynamics::smallest_influence));
-            }
+            append_bond(mesh,
+                        node,
+                        n,
+                        dealii::Tensor<1, dim>(),
+                        horizon[node],
+                        parameters.influence,
+                        set);
         scratch.clear();
         close_family(mesh,
                      particle,
