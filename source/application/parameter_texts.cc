@@ -1,4 +1,5 @@
 #include <perimorph/application/simulation_parameters.h>
+#include <perimorph/materials/material_factory.h>
 #include <perimorph/parameters/patterns.h>
 
 namespace Perimorph::Application
@@ -50,8 +51,11 @@ namespace Perimorph::Application
     prm.enter_subsection("Material");
     prm.add_parameter("law",
                       law,
-                      "Elastic law: linear elastic, isotropic, small strain.",
-                      choice({"linear elastic"}));
+                      "Isotropic elastic law: linear elastic is of small "
+                      "strain, the others of finite strain. prototype "
+                      "microelastic is the continuum of bond-based "
+                      "peridynamics.",
+                      choice(Materials::law_names()));
     prm.add_parameter("Young's modulus",
                       youngs_modulus,
                       "E [stress, any consistent unit]; has no default.",
@@ -154,6 +158,25 @@ namespace Perimorph::Application
                       "Pressure against the outward normal: hole: 5; ...",
                       Anything());
     prm.add_parameter(
+      "follower pressure",
+      follower_pressure,
+      "Pressure against the normal of the deformed surface (finite strain): "
+      "hole: 5*t; ... ('pressure' keeps its reference direction and area.)",
+      Anything());
+    prm.add_parameter(
+      "mean displacement",
+      mean_displacement,
+      "Mean motion of boundaries, reaction spread evenly: left: x = 0, y = 0, "
+      "rotation = 0 [rad]; ... What is not named stays free.",
+      Anything());
+    prm.add_parameter(
+      "rigid plate",
+      rigid_plate,
+      "Boundaries glued to a rigid plate that is held at their centroid: end: "
+      "x = 0, y = 0, rotation = 0 [rad]; ... What is not named stays free: x "
+      "and y alone make a pin.",
+      Anything());
+    prm.add_parameter(
       "body force",
       body_force,
       "Force per volume: y = -9.81, or volume NAME: y = -1; ...",
@@ -184,6 +207,21 @@ namespace Perimorph::Application
                       end_time,
                       "Last value of t.",
                       PositiveDouble());
+    prm.add_parameter("control",
+                      control,
+                      "load: t is prescribed; a step that fails is cut, and "
+                      "grows again. arc length: t is unknown too, to follow "
+                      "the path beyond limit points.",
+                      choice({"load", "arc length"}));
+    prm.add_parameter("maximum cuts",
+                      maximum_cuts,
+                      "How often in a row a step may be halved.",
+                      Integer(0, 40));
+    prm.add_parameter("maximum arc steps",
+                      maximum_arc_steps,
+                      "Steps of the arc length after which the run stops if it "
+                      "has not reached the end time.",
+                      Integer(1));
     prm.leave_subsection();
 
     prm.enter_subsection("Expressions");
@@ -216,6 +254,12 @@ namespace Perimorph::Application
                       maximum_newton_iterations,
                       "Give up after this many.",
                       Integer(1));
+    prm.add_parameter("line search",
+                      line_search,
+                      "inadmissible: Newton steps are shortened only where a "
+                      "law has no answer (J <= 0). energy: also until the "
+                      "force along the step has fallen.",
+                      choice({"inadmissible", "energy"}));
     prm.leave_subsection();
 
     prm.enter_subsection("Quantities");

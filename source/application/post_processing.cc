@@ -89,11 +89,14 @@ namespace Perimorph::Application
       for (const auto &support : supports.entries())
         if (support.second.boundary == name)
           return;
+      for (const unsigned int node : supports.coupled_nodes())
+        if (supports.boundary_motion_at(node) == name)
+          return;
       if (errors.empty())
         errors.add_parameter("Quantities / " + entry,
                              "'" + name + "', which no condition supports",
-                             "a boundary with a symmetry or displacement "
-                             "condition of its own");
+                             "a boundary with a symmetry, displacement, mean "
+                             "displacement or rigid plate of its own");
     };
     const auto inside = [&](const dealii::Point<dim> &point,
                             const std::string        &entry) {

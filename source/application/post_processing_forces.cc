@@ -10,7 +10,7 @@ namespace Perimorph::Application
   PostProcessing<dim>::reaction_at(const unsigned int dof,
                                    const State<dim>  &state) const
   {
-    if (supports.entries().count(dof) == 0)
+    if (!supports.hold(dof))
       return 0.;
     return state.internal_force[dof / dim][dof % dim] -
            state.external_force[dof / dim][dof % dim];
@@ -25,6 +25,14 @@ namespace Perimorph::Application
     for (const auto &[dof, entry] : supports.entries())
       if (entry.boundary == boundary)
         sum[dof % dim] += reaction_at(dof, state);
+    for (const unsigned int node : supports.coupled_nodes())
+      if (supports.boundary_motion_at(node) == boundary)
+        for (int d = 0; d < dim; ++d)
+          {
+            const auto entry = supports.entries().find(dim * node + d);
+            if (entry == supports.entries().end())
+              sum[d] += reaction_at(dim * node + d, state);
+          }
     return sum;
   }
 
@@ -77,8 +85,11 @@ namespace Perimorph::Application
     double                 magnitude = 0., lever = 0.;
     for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
       {
-        const auto                   outer = outer_force(n, state);
-        const dealii::Tensor<1, dim> arm   = nodal.nodes[n] - nodal.nodes[0];
+        const auto             outer = outer_force(n, state);
+        dealii::Tensor<1, dim> arm   = nodal.nodes[n] - nodal.nodes[0];
+        // Moments balance where the forces act.
+        if (parameters.finite_strain())
+          arm += state.displacement[n];
         force += outer;
         moment += outer_product(arm, outer) - outer_product(outer, arm);
         magnitude += outer.norm();

@@ -15,22 +15,14 @@ namespace Perimorph::Application
 {
   namespace
   {
-    /// |work - energy| relative to the larger one; zero where both are only
-    /// round-off of the largest force times the largest displacement.
-    double
-    energy_balance(const double work, const double energy, const double scale)
-    {
-      const double larger = std::max(std::abs(work), std::abs(energy));
-      return larger > 1e-12 * scale ? std::abs(work - energy) / larger : 0.;
-    }
-
     /// Removes what an earlier run left in the folder: it must not stand
     /// beside the results of this one.
     void
     remove_old_results(const std::string &folder)
     {
       static const std::regex ours(
-        "results\\.json|newton\\.csv|load_steps\\.csv|probe_.*\\.csv|"
+        "results\\.json|newton\\.csv|load_steps\\.csv|quantities\\.csv|"
+        "probe_.*\\.csv|"
         "(solution|particles)(_[0-9]+\\.vtu|\\.pvd)");
       std::error_code                    ignored;
       std::vector<std::filesystem::path> old;
@@ -65,13 +57,13 @@ namespace Perimorph::Application
       {
         Method method = set_up(parameters.region.mode);
         report_set_up(method);
-        solve_load_steps(method);
-        const auto state = gather(method);
+        const bool complete = solve_load_steps(method);
+        const auto state    = gather(method);
         evaluate(state);
         if (parameters.compare_with_finite_elements &&
             parameters.region.mode != Mesh::Mode::finite_elements)
           compare_with_finite_elements(state);
-        finish(Output::Status::converged);
+        finish(complete ? Output::Status::converged : Output::Status::stopped);
       }
     catch (const Base::SolveError &)
       {
@@ -139,9 +131,12 @@ namespace Perimorph::Application
                                                         method.region,
                                                         materials,
                                                         parameters.coupling,
-                                                        report);
+                                                        report,
+                                                        supports
+                                                          ->coupled_nodes());
     }
     method.equilibrium = std::make_unique<Solvers::Equilibrium<dim>>(
+      *mesh,
       *method.problem,
       *supports,
       *loads,
@@ -178,16 +173,15 @@ namespace Perimorph::Application
 
     double ghost = 0.;
     {
-      const auto  timer   = timing.scope("patch_test");
-      const auto &entries = supports->entries();
-      ghost               = method.problem->ghost_force(
-        [&entries](const unsigned int dof) { return entries.count(dof) > 0; });
+      const auto timer = timing.scope("patch_test");
+      ghost            = method.problem->ghost_force(
+        [this](const unsigned int dof) { return supports->hold(dof); });
     }
     result->set("checks", "ghost_force", ghost);
 
     const auto &choice = method.equilibrium->choice();
     const auto  name   = std::string(choice.direct ? "direct (MUMPS)"
-                                  : method.problem->is_symmetric()
+                                  : method.equilibrium->is_symmetric()
                                     ? "conjugate gradients with multigrid"
                                     : "GMRES with multigrid") +
                       (choice.matrix_free ? ", matrix-free families" : "");
@@ -217,128 +211,6 @@ namespace Perimorph::Application
         "' leaves ghost forces on this mesh; 'consistent' does not");
     else if (ghost > 1e-9)
       log.warning("the patch test is not exact to round-off on this mesh");
-  }
-
-  template <int dim>
-  void
-  Simulation<dim>::solve_load_steps(Method &method)
-  {
-    const auto                        &folder = parameters.output_folder;
-    const auto                         times  = parameters.times();
-    std::unique_ptr<Output::CsvWriter> newton_table, step_table;
-    Base::collectively(communicator, [&]() {
-      newton_table = std::make_unique<Output::CsvWriter>(
-        folder + "/newton.csv",
-        std::vector<std::string>{"step",
-                                 "time",
-                                 "iteration",
-                                 "relative_residual",
-                                 "linear_iterations"},
-        log);
-      step_table = std::make_unique<Output::CsvWriter>(
-        folder + "/load_steps.csv",
-        std::vector<std::string>{"step",
-                                 "time",
-                                 "newton_iterations",
-                                 "linear_iterations",
-                                 "relative_residual",
-                                 "strain_energy",
-                                 "external_work",
-                                 "largest_displacement",
-                                 "imbalance"},
-        log);
-    });
-    files.push_back("newton.csv");
-    files.push_back("load_steps.csv");
-    State<dim> previous      = gather(method);
-    double     work          = 0.; // of loads and supports
-    double     largest_force = 0.;
-    if (parameters.write_fields)
-      write_fields(method, previous, 0, 0.);
-    for (unsigned int step = 1; step <= times.size(); ++step)
-      {
-        const double time = times[step - 1];
-        log << "Load step " << step << " of " << times.size()
-            << ", t = " << time << std::endl;
-        Solvers::NewtonRecord record;
-        try
-          {
-            record = method.equilibrium->solve(
-              time,
-              method.displacement,
-              [&](const unsigned int iteration,
-                  const double       residual,
-                  const unsigned int linear_iterations) {
-                log << "  Newton iteration " << iteration
-                    << ": relative residual " << residual;
-                if (iteration > 0)
-                  log << ", " << linear_iterations << " linear iteration"
-                      << (linear_iterations == 1 ? "" : "s");
-                log << std::endl;
-                newton_table->write_row(
-                  {step, time, iteration, residual, linear_iterations});
-              });
-          }
-        catch (const Base::SolveError &error)
-          {
-            record.reason = error.what();
-          }
-        result->add_count("newton_iterations",
-                          std::max<int>(0, record.residuals.size() - 1));
-        result->add_count("linear_iterations", record.linear_iterations);
-        if (!record.converged)
-          {
-            std::ostringstream text;
-            text << "load step " << step << " (t = " << time
-                 << ") did not converge: " << record.reason;
-            if (!record.residuals.empty())
-              {
-                text << "; relative residuals";
-                for (const double residual : record.residuals)
-                  text << " " << residual;
-              }
-            text << ". The states before this step are in '" << folder << "'.";
-            throw Base::SolveError(text.str());
-          }
-        remove_mean_rigid_motion(method);
-        const auto state   = gather(method);
-        double     largest = 0.;
-        for (unsigned int n = 0; n < state.displacement.size(); ++n)
-          {
-            work += 0.5 *
-                    (post_processing->outer_force(n, previous) +
-                     post_processing->outer_force(n, state)) *
-                    (state.displacement[n] - previous.displacement[n]);
-            largest = std::max(largest, state.displacement[n].norm());
-          }
-        largest_force =
-          std::max(largest_force, method.equilibrium->largest_force_met());
-        const double imbalance =
-          post_processing->imbalance(state, largest_force);
-        step_table->write_row({step,
-                               time,
-                               record.residuals.size() - 1,
-                               record.linear_iterations,
-                               record.residuals.back(),
-                               state.strain_energy,
-                               work,
-                               largest,
-                               imbalance});
-        result->set("checks", "imbalance", imbalance);
-        result->set(
-          "checks",
-          "energy_balance",
-          energy_balance(work, state.strain_energy, largest_force * largest));
-        log << "  largest displacement " << largest << ", strain energy "
-            << state.strain_energy << ", out-of-balance " << imbalance
-            << std::endl;
-        if (imbalance > 1e-6)
-          log.warning("loads and reactions do not balance (relative "
-                      "out-of-balance force or moment above 1e-6)");
-        if (parameters.write_fields)
-          write_fields(method, state, step, time);
-        previous = state;
-      }
   }
 
   template class Simulation<2>;

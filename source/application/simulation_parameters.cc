@@ -98,6 +98,12 @@ namespace Perimorph::Application
 
     newton.tolerance          = texts.newton_tolerance;
     newton.maximum_iterations = texts.maximum_newton_iterations;
+    newton.line_search =
+      from_name<Solvers::LineSearch>(texts.line_search,
+                                     {"inadmissible", "energy"});
+    arc_length                 = texts.control == "arc length";
+    maximum_arc_steps          = texts.maximum_arc_steps;
+    load_stepping.maximum_cuts = texts.maximum_cuts;
     linear_solver             = from_name<Solvers::LinearSolverKind>(
       texts.linear_solver,
       {"automatic", "direct", "iterative"});
@@ -112,9 +118,7 @@ namespace Perimorph::Application
     read_region(texts, errors);
     read_boundary_conditions(texts, errors);
     read_quantities(texts, parameter_file, errors);
-    if (coupling.model == Coupling::Model::bond_based &&
-        region.mode != Mesh::Mode::finite_elements)
-      check_bond_based(errors);
+    check_law(errors);
   }
 
   template <int dim>
@@ -122,6 +126,7 @@ namespace Perimorph::Application
   SimulationParameters<dim>::read_materials(const ParameterTexts      &texts,
                                             Base::InputErrorCollector &errors)
   {
+    law   = texts.law;
     state = dim == 2 ? Materials::PlaneState::plane_strain
                      : Materials::PlaneState::three_dimensional;
     if (texts.state != "automatic")
@@ -255,6 +260,61 @@ namespace Perimorph::Application
                                 entry.expression,
                                 constants,
                                 errors)});
+    for (const auto &entry :
+         Parameters::parse_named_values(section + "follower pressure",
+                                        texts.follower_pressure,
+                                        errors))
+      conditions.surface_loads.push_back(
+        {entry.name,
+         {},
+         Parameters::Expression(section + "follower pressure",
+                                entry.expression,
+                                constants,
+                                errors),
+         true});
+    if (!texts.follower_pressure.empty() && !finite_strain())
+      errors.add_parameter(section + "follower pressure",
+                           "with the law linear elastic",
+                           "a law of finite strain",
+                           "At small strain a surface keeps its direction: use "
+                           "'pressure'.");
+    auto motion_components = xyz;
+    motion_components.push_back("rotation");
+    const auto read_motions = [&](const std::string &entry,
+                                  const std::string &text,
+                                  std::vector<Fem::BoundaryMotion<dim>> &list) {
+      for (const auto &named_entry :
+           Parameters::parse_named_components(section + entry,
+                                              text,
+                                              motion_components,
+                                              NameRule::required,
+                                              errors))
+        {
+          Fem::BoundaryMotion<dim> motion;
+          motion.boundary = named_entry.name;
+          std::vector<std::pair<std::string, std::string>> translation;
+          for (const auto &component : named_entry.components)
+            if (component.first == "rotation")
+              {
+                motion.rotation = Parameters::Expression(section + entry,
+                                                         component.second,
+                                                         constants,
+                                                         errors);
+                if (dim == 3 && component.second != "0")
+                  errors.add_parameter(section + entry,
+                                       "rotation = " + component.second,
+                                       "rotation = 0 in 3D, or free");
+              }
+            else
+              translation.push_back(component);
+          motion.translation = components(entry, translation);
+          list.push_back(motion);
+        }
+    };
+    read_motions("mean displacement",
+                 texts.mean_displacement,
+                 conditions.mean_displacement);
+    read_motions("rigid plate", texts.rigid_plate, conditions.rigid_plates);
     for (const auto &entry :
          named("body force", texts.body_force, NameRule::optional_volume))
       conditions.body_forces.push_back(
@@ -390,27 +450,48 @@ namespace Perimorph::Application
 
   template <int dim>
   void
-  SimulationParameters<dim>::check_bond_based(
-    Base::InputErrorCollector &errors) const
+  SimulationParameters<dim>::check_law(Base::InputErrorCollector &errors) const
   {
+    const bool bonds = coupling.model == Coupling::Model::bond_based &&
+                       region.mode != Mesh::Mode::finite_elements;
+    const bool microelastic = law == "prototype microelastic";
+    if (bonds && finite_strain() && !microelastic)
+      errors.add_parameter("Material / law",
+                           "'" + law + "' with bond-based peridynamics",
+                           "prototype microelastic (finite strain) or linear "
+                           "elastic (small strain)",
+                           "Bonds are a law of their own at finite strain; use "
+                           "model = correspondence for other laws.");
+    if (!bonds && !microelastic)
+      return;
     const double allowed = Peridynamics::allowed_poissons_ratio(state);
     const auto   check   = [&](const std::string &path, const double found) {
       if (std::abs(found - allowed) > 1e-3)
         errors.add_parameter(
           path,
           number_text(found),
-          std::string(allowed > 0.3 ? "1/3" : "1/4") +
-            " with bond-based peridynamics in " +
+          std::string(allowed > 0.3 ? "1/3" : "1/4") + " with " +
+            (bonds ? "bond-based peridynamics" :
+                     "the law prototype microelastic") +
+            " in " +
             (state == Materials::PlaneState::plane_stress   ? "plane stress"
                  : state == Materials::PlaneState::plane_strain ? "plane strain"
                                                                 : "3D"),
-          "Pair forces along bonds leave no choice; use "
-              "model = correspondence for other values.");
+          bonds ? "Pair forces along bonds leave no choice; use "
+                  "model = correspondence for other values." :
+                  "It is the continuum of pair forces, which leave no choice.");
     };
     check("Material / Poisson's ratio", material.poissons_ratio);
     for (const auto &entry : volume_materials)
       check("Material / by volume: Poisson's ratio of " + entry.first,
             entry.second.poissons_ratio);
+  }
+
+  template <int dim>
+  bool
+  SimulationParameters<dim>::finite_strain() const
+  {
+    return law != "linear elastic";
   }
 
   template <int dim>

@@ -1,8 +1,10 @@
 #include <perimorph/application/simulation.h>
 #include <perimorph/base/log.h>
 #include <perimorph/base/name_help.h>
+#include <perimorph/materials/material_factory.h>
 
 #include <cmath>
+#include <sstream>
 
 namespace Perimorph::Application
 {
@@ -41,6 +43,15 @@ namespace Perimorph::Application
       errors.collect([&]() { hold_rigid_motion(); });
     errors.throw_if_any();
     warn_if_nothing_happens();
+    for (const unsigned int node : loads->loaded_points())
+      {
+        std::ostringstream text;
+        text << "the force on the single node (" << mesh->nodal().nodes[node]
+             << ") of a " << dim << "D solid: the displacement under it grows "
+             << "without limit as the mesh is refined. Spread it over a "
+                "boundary ('traction').";
+        log.warning(text.str());
+      }
   }
 
   template <int dim>
@@ -64,10 +75,11 @@ namespace Perimorph::Application
   Simulation<dim>::assign_materials()
   {
     const auto add = [this](const MaterialConstants &constants) {
-      materials.laws.push_back(std::make_unique<Materials::LinearElastic<dim>>(
-        constants.youngs_modulus,
-        constants.poissons_ratio,
-        parameters.state));
+      materials.laws.push_back(
+        Materials::make_material<dim>(parameters.law,
+                                      constants.youngs_modulus,
+                                      constants.poissons_ratio,
+                                      parameters.state));
       materials.bond_constants.push_back(
         {constants.youngs_modulus, parameters.state});
     };
@@ -100,7 +112,7 @@ namespace Perimorph::Application
                            "supports that prevent every rigid motion",
                            "Add symmetry or displacement conditions, or set "
                            "'remove rigid motion = true'."});
-    if (supports->entries().empty() && loads->empty())
+    if (!supports->act() && loads->empty())
       throw Base::InputError(Base::InputMessage{
         "section 'Boundary conditions'",
         "neither supports nor loads",
@@ -114,7 +126,10 @@ namespace Perimorph::Application
     for (const unsigned int pin : Fem::pins_against(*mesh, free_motions))
       supports->pin(pin);
     log << "No support prevents " << list
-        << "; the mean of this motion is removed." << std::endl;
+        << (parameters.finite_strain() ?
+              "; it is held at single points." :
+              "; the mean of this motion is removed.")
+        << std::endl;
   }
 
   template <int dim>
@@ -124,9 +139,8 @@ namespace Perimorph::Application
     if (!loads->empty())
       return;
     for (const double time : parameters.times())
-      for (const auto &entry : supports->entries())
-        if (supports->value(entry.first, time) != 0.)
-          return;
+      if (supports->move(time))
+        return;
     log.warning("no load and no prescribed displacement other than zero: the "
                 "body will stay at rest");
   }

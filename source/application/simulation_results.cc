@@ -37,7 +37,9 @@ namespace Perimorph::Application
   void
   Simulation<dim>::remove_mean_rigid_motion(Method &method) const
   {
-    if (free_motions.empty())
+    // At finite strain a rotation of the displacement is another state under
+    // dead loads: there the pins decide.
+    if (free_motions.empty() || parameters.finite_strain())
       return;
     const auto &nodal     = mesh->nodal();
     const auto &partition = method.problem->partition();
@@ -179,23 +181,20 @@ namespace Perimorph::Application
     const auto timer = timing.scope("companion");
     log << "Companion run: finite elements only, same mesh" << std::endl;
     Method method = set_up(Mesh::Mode::finite_elements);
-    for (const double time : parameters.times())
+    const auto on_newton = [&](const Step &, const auto &iteration) {
+      log << "  Newton iteration " << iteration.iteration
+          << ": relative residual " << iteration.relative_residual << std::endl;
+    };
+    try
       {
-        const auto record =
-          method.equilibrium->solve(time,
-                                    method.displacement,
-                                    [&](const unsigned int iteration,
-                                        const double       residual,
-                                        const unsigned int) {
-                                      log << "  Newton iteration " << iteration
-                                          << ": relative residual " << residual
-                                          << std::endl;
-                                    });
-        if (!record.converged)
-          throw Base::SolveError("the companion run with finite elements did "
-                                 "not converge: " +
-                                 record.reason);
-        remove_mean_rigid_motion(method);
+        follow_loads(method,
+                     [&](const Step &) { remove_mean_rigid_motion(method); },
+                     on_newton);
+      }
+    catch (const Base::SolveError &error)
+      {
+        throw Base::SolveError("the companion run with finite elements: " +
+                               std::string(error.what()));
       }
     const auto companion = gather(method);
     for (const auto &quantity : post_processing->evaluate(companion))

@@ -18,6 +18,7 @@ namespace Perimorph::Base
     {
       fine,
       bad_input,
+      inadmissible,
       failed_solve
     };
     int                      outcome = fine;
@@ -30,6 +31,11 @@ namespace Perimorph::Base
       {
         outcome  = bad_input;
         messages = error.messages();
+      }
+    catch (const InadmissibleState &error)
+      {
+        outcome  = inadmissible;
+        messages = {error.what()};
       }
     catch (const std::exception &error)
       {
@@ -47,6 +53,8 @@ namespace Perimorph::Base
     messages = MPI::broadcast(communicator, messages, first);
     if (outcome == bad_input)
       throw InputError(messages);
+    if (outcome == inadmissible)
+      throw InadmissibleState(messages.front());
     throw SolveError(messages.front());
   }
 } // namespace Perimorph::Base

@@ -19,6 +19,7 @@ namespace Perimorph::Coupling
     xi.reserve(families.n_bonds());
     for (std::size_t p = 0; p < families.n_particles(); ++p)
       {
+        position.push_back(partition.position(families.node[p]));
         largest_family =
           std::max<unsigned int>(largest_family,
                                  families.offsets[p + 1] - families.offsets[p]);
@@ -121,11 +122,11 @@ namespace Perimorph::Coupling
         relative_displacements(p, displacement.begin(), eta.data());
         const auto one = family(p);
         const auto H   = displacement_gradient(one, eta.data());
-        family_forces(one,
-                      eta.data(),
-                      H,
-                      materials[families.material[p]]->first_piola_kirchhoff(H),
-                      forces.data());
+        dealii::Tensor<2, dim> P;
+        this->at_place(position[p], [&]() {
+          P = materials[families.material[p]]->first_piola_kirchhoff(H);
+        });
+        family_forces(one, eta.data(), H, P, forces.data());
         scatter(p, forces.data(), residual.begin());
       }
   }

@@ -96,9 +96,11 @@ namespace Perimorph::Coupling
                                       const Mesh::RegionMap            &region,
                                       const BodyMaterials<dim> &materials,
                                       const CouplingParameters &parameters,
-                                      const Progress           &progress)
+                                      const Progress           &progress,
+                                      std::vector<unsigned int> more_nodes)
     : mesh(mesh)
     , materials(materials)
+    , more_nodes(std::move(more_nodes))
   {
     if (region.n_core + region.n_blending == 0)
       {
@@ -206,6 +208,7 @@ namespace Perimorph::Coupling
   CoupledProblem<dim>::make_partition(std::vector<unsigned int> needed)
   {
     Fem::add_cell_nodes(mesh.nodal(), needed);
+    needed.insert(needed.end(), more_nodes.begin(), more_nodes.end());
     node_partition =
       std::make_unique<Fem::NodePartition<dim>>(mesh.nodal(),
                                                 needed,
@@ -293,8 +296,10 @@ namespace Perimorph::Coupling
   {
     forces.zero_out_ghost_values();
     forces = 0.;
-    for (const auto &term : contributions)
-      term->add_residual(displacement, forces);
+    Base::collectively(mesh.communicator(), [&]() {
+      for (const auto &term : contributions)
+        term->add_residual(displacement, forces);
+    });
     forces.compress(dealii::VectorOperation::add);
   }
 
@@ -327,11 +332,13 @@ namespace Perimorph::Coupling
     partition().initialize(forces);
     partition().initialize(reference);
     double worst = 0.;
+    // Finite strain: an amplitude that every law bears.
+    const double amplitude = is_linear() ? 1. : 0.1;
     for (int a = 0; a < dim; ++a)
       for (int b = a; b < dim; ++b)
         {
           dealii::Tensor<2, dim> strain;
-          strain[a][b] = strain[b][a] = a == b ? 1. : 0.5;
+          strain[a][b] = strain[b][a] = amplitude * (a == b ? 1. : 0.5);
           displacement.zero_out_ghost_values();
           for (unsigned int n = 0; n < partition().n_owned(); ++n)
             {

@@ -102,9 +102,12 @@ namespace Perimorph::Fem
         const auto geometry = this->geometry(cell);
         for (unsigned int q = 0; q < n_nodes; ++q)
           {
-            const auto P = geometry.jxw[q] * cell.weights[q] *
-                           materials[cell.material]->first_piola_kirchhoff(
-                             gradient(cell, geometry, q, displacement.begin()));
+            dealii::Tensor<2, dim> P;
+            this->at_place(geometry.points[q], [&]() {
+              P = geometry.jxw[q] * cell.weights[q] *
+                  materials[cell.material]->first_piola_kirchhoff(
+                    gradient(cell, geometry, q, displacement.begin()));
+            });
             for (unsigned int v = 0; v < n_nodes; ++v)
               this->add_at(residual.begin(),
                            cell.nodes[v],

@@ -71,7 +71,9 @@ namespace Perimorph::Fem
 
     for (const auto &load : conditions.surface_loads)
       errors.collect([&]() {
-        const std::string entry = load.pressure ? "pressure" : "traction";
+        const std::string entry = load.follows  ? "follower pressure" :
+                                  load.pressure ? "pressure" :
+                                                  "traction";
         std::vector<dealii::Point<dim>> points;
         for (const unsigned int f :
              mesh.boundary(load.boundary,
@@ -120,6 +122,8 @@ namespace Perimorph::Fem
     for (const auto &load : conditions.surface_loads)
       for (const unsigned int f : mesh.boundary(load.boundary, "load"))
         {
+          if (load.follows) // FollowerPressure adds it
+            break;
           const auto &face = nodal.boundary_faces[f];
           if (!nodal.owns_cell(face.cell))
             continue;

@@ -30,16 +30,14 @@ namespace Perimorph::Fem
           motion.translation[d] = 1.;
           motions.push_back(motion);
         }
-      for (int a = 0; a < dim; ++a)
-        for (int b = a + 1; b < dim; ++b)
-          {
-            FreeMotion<dim> motion;
-            motion.piece          = piece;
-            motion.center         = center;
-            motion.rotation[a][b] = -1. / size;
-            motion.rotation[b][a] = 1. / size;
-            motions.push_back(motion);
-          }
+      for (const auto &generator : rotation_generators<dim>())
+        {
+          FreeMotion<dim> motion;
+          motion.piece    = piece;
+          motion.center   = center;
+          motion.rotation = generator / size;
+          motions.push_back(motion);
+        }
       return motions;
     }
 
@@ -59,6 +57,25 @@ namespace Perimorph::Fem
       return sum;
     }
   } // namespace
+
+  template <int dim>
+  const std::vector<dealii::Tensor<2, dim>> &
+  rotation_generators()
+  {
+    static const auto list = []() {
+      std::vector<dealii::Tensor<2, dim>> generators;
+      for (int a = 0; a < dim; ++a)
+        for (int b = a + 1; b < dim; ++b)
+          {
+            dealii::Tensor<2, dim> generator;
+            generator[a][b] = -1.;
+            generator[b][a] = 1.;
+            generators.push_back(generator);
+          }
+      return generators;
+    }();
+    return list;
+  }
 
   template <int dim>
   std::string
@@ -111,14 +128,43 @@ namespace Perimorph::Fem
         motions.push_back(all_motions(p, center[p], size[p]));
         gram.push_back(Eigen::MatrixXd::Zero(n_modes<dim>, n_modes<dim>));
       }
+    const auto hold = [&](const unsigned int piece, const auto &amount_of) {
+      Eigen::VectorXd row(n_modes<dim>);
+      for (unsigned int k = 0; k < n_modes<dim>; ++k)
+        row[k] = amount_of(motions[piece][k]);
+      gram[piece] += row * row.transpose();
+    };
     for (const auto &entry : supports.entries())
       {
-        const unsigned int node  = entry.first / dim;
-        const unsigned int piece = pieces[node];
-        Eigen::VectorXd    row(n_modes<dim>);
-        for (unsigned int k = 0; k < n_modes<dim>; ++k)
-          row[k] = motions[piece][k].at(nodal.nodes[node])[entry.first % dim];
-        gram[piece] += row * row.transpose();
+        const unsigned int node = entry.first / dim;
+        hold(pieces[node], [&](const FreeMotion<dim> &motion) {
+          return motion.at(nodal.nodes[node])[entry.first % dim];
+        });
+      }
+    for (const auto &mean : supports.mean_constraints())
+      {
+        const unsigned int piece = pieces[mean.factors.begin()->first / dim];
+        hold(piece, [&](const FreeMotion<dim> &motion) {
+          double sum = 0.;
+          for (const auto &[dof, factor] : mean.factors)
+            sum += factor * motion.at(nodal.nodes[dof / dim])[dof % dim];
+          return sum;
+        });
+      }
+    for (const auto &plate : supports.rigid_plates())
+      {
+        const unsigned int piece = pieces[plate.nodes[0]];
+        for (int d = 0; d < dim; ++d)
+          if (plate.translation[d])
+            hold(piece, [&](const FreeMotion<dim> &motion) {
+              return motion.at(plate.center)[d];
+            });
+        if (plate.rotation)
+          for (int a = 0; a < dim; ++a)
+            for (int b = a + 1; b < dim; ++b)
+              hold(piece, [&](const FreeMotion<dim> &motion) {
+                return size[piece] * motion.rotation[a][b];
+              });
       }
     std::vector<FreeMotion<dim>> result;
     for (unsigned int p = 0; p < n_pieces; ++p)
@@ -186,6 +232,10 @@ namespace Perimorph::Fem
     return pins;
   }
 
+  template const std::vector<dealii::Tensor<2, 2>> &
+  rotation_generators<2>();
+  template const std::vector<dealii::Tensor<2, 3>> &
+  rotation_generators<3>();
   template struct FreeMotion<2>;
   template struct FreeMotion<3>;
   template std::vector<FreeMotion<2>>

@@ -103,6 +103,21 @@ namespace Perimorph::Fem
                    condition.boundary},
                   times);
       });
+    for (const auto &motion : conditions.mean_displacement)
+      errors.collect([&]() { add_mean(motion); });
+    for (const auto &motion : conditions.rigid_plates)
+      errors.collect([&]() { add_plate(motion); });
+    for (const auto *list :
+         {&conditions.mean_displacement, &conditions.rigid_plates})
+      for (const auto &motion : *list)
+        for (const double time : times)
+          {
+            for (const auto &component : motion.translation)
+              if (component)
+                component->check_finite(nodal.nodes[0], time, errors);
+            if (motion.rotation)
+              motion.rotation->check_finite(nodal.nodes[0], time, errors);
+          }
     errors.throw_if_any();
   }
 

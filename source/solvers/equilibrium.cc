@@ -12,28 +12,15 @@ namespace Perimorph::Solvers
   namespace
   {
     template <int dim>
-    dealii::AffineConstraints<double>
-    make_constraints(const Fem::NodePartition<dim> &partition,
-                     const Fem::Supports<dim>      &supports)
-    {
-      const auto                        relevant = partition.relevant_dofs();
-      dealii::AffineConstraints<double> constraints(relevant);
-      for (const auto &entry : supports.entries())
-        if (relevant.is_element(entry.first))
-          constraints.add_line(entry.first);
-      constraints.close();
-      return constraints;
-    }
-
-    template <int dim>
     ProblemSize
-    problem_size(const Coupling::CoupledProblem<dim> &problem)
+    problem_size(const Coupling::CoupledProblem<dim> &problem,
+                 const bool                           symmetric)
     {
       ProblemSize size;
       const auto  counts = problem.counts();
       size.dim           = dim;
       size.n_dofs        = problem.partition().owned_dofs().size();
-      size.symmetric     = problem.is_symmetric();
+      size.symmetric     = symmetric;
       if (!problem.family_terms().empty())
         {
           size.n_family_bonds = counts.bonds;
@@ -44,7 +31,8 @@ namespace Perimorph::Solvers
   } // namespace
 
   template <int dim>
-  Equilibrium<dim>::Equilibrium(const Coupling::CoupledProblem<dim> &problem,
+  Equilibrium<dim>::Equilibrium(const Mesh::DistributedMesh<dim>    &mesh,
+                                const Coupling::CoupledProblem<dim> &problem,
                                 const Fem::Supports<dim>            &supports,
                                 const Fem::Loads<dim>               &loads,
                                 const EquilibriumParameters         &parameters,
@@ -56,19 +44,29 @@ namespace Perimorph::Solvers
     , parameters(parameters)
     , log(log)
     , timing(timing)
+    , follower(mesh, problem.partition(), loads.surface_loads())
     , solver_choice(choose_linear_solver(parameters.linear_solver,
                                          parameters.tangent,
-                                         problem_size(problem)))
-    , constraints(make_constraints(problem.partition(), supports))
-    , assembler(problem.partition(), constraints)
+                                         problem_size(problem, is_symmetric())))
+    , constraints(problem.partition(), supports, problem.is_linear())
+    , assembler(problem.partition(), constraints.lines())
   {
+    if (solver_choice.matrix_free && constraints.couple_unknowns())
+      {
+        solver_choice.matrix_free = false;
+        solver_choice.reason +=
+          "; assembled because supports couple unknowns";
+      }
     const auto &partition = problem.partition();
-    for (auto *vector : {&internal, &external, &rhs, &correction})
+    for (auto *vector : {&internal,
+                         &external,
+                         &dead_loads,
+                         &out_of_balance,
+                         &rhs,
+                         &correction,
+                         &particular,
+                         &product})
       partition.initialize(*vector);
-    for (const auto &line : constraints.get_lines())
-      if (partition.owned_dofs().is_element(line.index))
-        constrained.push_back(
-          partition.owned_dofs().index_within_set(line.index));
   }
 
   template <int dim>
@@ -78,10 +76,12 @@ namespace Perimorph::Solvers
   void
   Equilibrium<dim>::prepare_linear_solver(const Vector &displacement)
   {
-    if (linear_solver && problem.is_linear())
+    if (linear_solver && is_linear())
       return;
-    const auto terms =
+    auto terms =
       solver_choice.matrix_free ? problem.assembled_terms() : problem.terms();
+    if (follower.acts())
+      terms.push_back(&follower);
     const std::vector<const Fem::Contribution<dim> *> full_elements = {
       &problem.full_elements()};
     {
@@ -104,6 +104,7 @@ namespace Perimorph::Solvers
         [&](const std::size_t done) { progress.update(done); });
       if (solver_choice.matrix_free)
         assembler.assemble(full_elements, displacement, preconditioner_matrix);
+      constraints.add_geometric_stiffness(out_of_balance, matrix);
     }
     const auto timer = timing.scope("linear_solver");
     linear_solver.reset();
@@ -117,7 +118,7 @@ namespace Perimorph::Solvers
       solver_choice.matrix_free ? problem.family_terms()
                                 : std::vector<const Fem::Contribution<dim> *>(),
       displacement,
-      constraints,
+      constraints.lines(),
       solver_choice.matrix_free ? preconditioner_matrix : matrix,
       problem.partition().owned_dofs());
     using Clock       = std::chrono::steady_clock;
@@ -139,9 +140,112 @@ namespace Perimorph::Solvers
       },
       solver_choice.matrix_free ? preconditioner_matrix : matrix,
       problem.partition(),
-      problem.is_symmetric(),
+      is_symmetric(),
       parameters.linear_tolerance,
       on_iteration);
+  }
+
+  template <int dim>
+  void
+  Equilibrium<dim>::evaluate_loads(const double time)
+  {
+    dead_loads.zero_out_ghost_values();
+    dead_loads = 0.;
+    loads.add_forces(time, problem.partition(), dead_loads);
+    dead_loads.compress(dealii::VectorOperation::add);
+    follower.set_time(time);
+  }
+
+  template <int dim>
+  void
+  Equilibrium<dim>::tangent_product(const Vector &displacement,
+                                    const Vector &direction,
+                                    Vector       &result)
+  {
+    result.zero_out_ghost_values();
+    result = 0.;
+    direction.update_ghost_values();
+    for (const auto *term : problem.terms())
+      term->add_tangent_product(displacement, direction, result);
+    if (follower.acts())
+      follower.add_tangent_product(displacement, direction, result);
+    result.compress(dealii::VectorOperation::add);
+    direction.zero_out_ghost_values();
+  }
+
+  template <int dim>
+  ResidualNorms
+  Equilibrium<dim>::evaluate(const double time,
+                             Vector      &displacement,
+                             const bool   first)
+  {
+    const auto timer = timing.scope("assembly");
+    displacement.update_ghost_values();
+    problem.internal_forces(displacement, internal);
+    external.zero_out_ghost_values();
+    external = 0.;
+    if (follower.acts())
+      {
+        follower.add_residual(displacement, external);
+        external.compress(dealii::VectorOperation::add);
+      }
+    external.sadd(-1., 1., dead_loads);
+    out_of_balance.zero_out_ghost_values();
+    out_of_balance = external;
+    out_of_balance -= internal;
+    const double reactions = constraints.support_norm(out_of_balance);
+
+    ResidualNorms norms;
+    norms.supports_move =
+      constraints.particular(time, displacement, particular);
+    rhs.zero_out_ghost_values();
+    rhs = out_of_balance;
+    if (norms.supports_move)
+      {
+        tangent_product(displacement, particular, product);
+        rhs -= product;
+      }
+    constraints.condense(rhs);
+    norms.residual = rhs.l2_norm();
+    // The out-of-balance of the start counts as a force of the problem: with
+    // prescribed displacements alone nothing else may remain at the end. Those
+    // of later iterations do not: they can be far too large.
+    for (const double force :
+         {first ? norms.residual : 0., external.l2_norm()})
+      if (std::isfinite(force))
+        largest_force = std::max(largest_force, force);
+    norms.scale = std::max(largest_force, reactions);
+    return norms;
+  }
+
+  template <int dim>
+  NewtonRecord
+  Equilibrium<dim>::guarded(Vector                              &displacement,
+                            const std::function<NewtonRecord()> &solve)
+  {
+    displacement.zero_out_ghost_values();
+    const Vector start       = displacement;
+    const auto   start_state = constraints.state();
+    NewtonRecord record;
+    try
+      {
+        record = solve();
+      }
+    catch (const Base::SolveError &error)
+      {
+        record.converged = false;
+        record.reason    = error.what();
+      }
+    if (record.converged)
+      {
+        largest_force = std::max(largest_force,
+                                 constraints.support_norm(out_of_balance));
+        return record;
+      }
+    displacement.zero_out_ghost_values();
+    displacement = start;
+    constraints.restore(start_state);
+    return record;
   }
 
   template <int dim>
@@ -150,48 +254,38 @@ namespace Perimorph::Solvers
                           Vector       &displacement,
                           const Report &report)
   {
-    const auto &partition = problem.partition();
-    displacement.zero_out_ghost_values();
-    for (const unsigned int entry : constrained)
-      displacement.local_element(entry) =
-        supports.value(partition.owned_dofs().nth_index_in_set(entry), time);
-    external.zero_out_ghost_values();
-    external = 0.;
-    loads.add_forces(time, partition, external);
-    external.compress(dealii::VectorOperation::add);
-
-    const auto evaluate = [&]() {
-      const auto timer = timing.scope("assembly");
-      displacement.update_ghost_values();
-      problem.internal_forces(displacement, internal);
-      rhs.zero_out_ghost_values();
-      rhs = external;
-      rhs -= internal;
-      double reactions = 0.;
-      for (const unsigned int entry : constrained)
-        {
-          reactions += std::pow(rhs.local_element(entry), 2);
-          rhs.local_element(entry) = 0.;
-        }
-      reactions = std::sqrt(
-        dealii::Utilities::MPI::sum(reactions, partition.communicator()));
-      const double residual = rhs.l2_norm();
-      // The out-of-balance of the start counts as a force of the problem: with
-      // prescribed displacements alone nothing else may remain at the end.
-      for (const double force : {residual, reactions, external.l2_norm()})
-        if (std::isfinite(force))
-          largest_force = std::max(largest_force, force);
-      return ResidualNorms{residual, largest_force};
+    Vector                            base;
+    typename Constraints<dim>::State  base_state;
+    NewtonActions                     actions;
+    actions.evaluate = [&](const unsigned int iteration) {
+      return evaluate(time, displacement, iteration == 0);
     };
-    const auto solve_and_update = [&]() {
+    actions.solve = [&]() {
       prepare_linear_solver(displacement);
       const auto timer      = timing.scope("linear_solver");
       const auto iterations = linear_solver->solve(correction, rhs);
+      constraints.distribute(correction);
+      correction += particular;
       displacement.zero_out_ghost_values();
-      displacement += correction;
+      base       = displacement;
+      base_state = constraints.state();
       return iterations;
     };
-    return newton(parameters.newton, evaluate, solve_and_update, report);
+    actions.move = [&](const double step) {
+      displacement.zero_out_ghost_values();
+      if (step < 1.)
+        {
+          displacement = base;
+          constraints.restore(base_state);
+        }
+      constraints.move(step, correction, displacement);
+    };
+    actions.slope  = [&]() { return rhs * correction; };
+    actions.report = report;
+    return guarded(displacement, [&]() {
+      evaluate_loads(time);
+      return newton(parameters.newton, actions);
+    });
   }
 
   template class Equilibrium<2>;

@@ -4,6 +4,8 @@
 #include <deal.II/lac/sparsity_tools.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 namespace Perimorph::Solvers
 {
@@ -30,6 +32,11 @@ namespace Perimorph::Solvers
       }
     owned.compress();
     relevant.compress();
+    // Equations of dependent nodes go to the nodes they depend on.
+    std::map<unsigned int, std::set<unsigned int>> masters;
+    for (const auto &line : constraints.get_lines())
+      for (const auto &entry : line.entries)
+        masters[line.index / dim].insert(entry.first / dim);
     dealii::DynamicSparsityPattern graph(n_nodes, n_nodes, relevant);
     std::vector<unsigned int>      nodes;
     std::vector<dealii::types::global_dof_index> global;
@@ -40,7 +47,17 @@ namespace Perimorph::Solvers
           global.resize(nodes.size());
           for (unsigned int k = 0; k < nodes.size(); ++k)
             global[k] = partition.global(nodes[k]);
+          if (!masters.empty())
+            for (const unsigned int node : nodes)
+              {
+                const auto found = masters.find(partition.global(node));
+                if (found != masters.end())
+                  global.insert(global.end(),
+                                found->second.begin(),
+                                found->second.end());
+              }
           std::sort(global.begin(), global.end());
+          global.erase(std::unique(global.begin(), global.end()), global.end());
           for (const auto row : global)
             graph.add_entries(row, global.begin(), global.end(), true);
         }

@@ -77,8 +77,38 @@ namespace Perimorph::Application
     set_up(Mesh::Mode mode);
     void
     report_set_up(const Method &method);
-    void
+    /// A load step or arc step that was accepted.
+    struct Step
+    {
+      unsigned int number;
+      double       time;
+      unsigned int n_increments      = 0; ///< more than one after cuts
+      unsigned int newton_iterations = 0;
+      unsigned int linear_iterations = 0;
+      double       relative_residual = 0.;
+    };
+    using OnStep = std::function<void(const Step &)>;
+    using OnNewton =
+      std::function<void(const Step &, const Solvers::NewtonIteration &)>;
+
+    /// Follows the loads to their end; on_step gets every step accepted. After
+    /// a failure the state is the last one that converged, given to on_step
+    /// too.
+    /// @return  false if the arc length did not reach the end time
+    /// @throws Base::SolveError
+    bool
+    follow_loads(Method         &method,
+                 const OnStep   &on_step,
+                 const OnNewton &on_newton);
+    bool
+    follow_arc(Method         &method,
+               const OnStep   &on_step,
+               const OnNewton &on_newton);
+    /// The run itself: follows the loads, writes tables and fields.
+    bool
     solve_load_steps(Method &method);
+    void
+    warn_of_point_supports(const State<dim> &state, double largest_force);
     void
     remove_mean_rigid_motion(Method &method) const;
     State<dim>
@@ -110,5 +140,6 @@ namespace Perimorph::Application
     std::unique_ptr<Output::Results>            result;
     std::unique_ptr<Output::FieldOutput<dim>>   fields;
     std::vector<std::string>                    files;
+    bool point_supports_checked = false;
   };
 } // namespace Perimorph::Application

@@ -8,6 +8,7 @@
 #include <perimorph/parameters/lists.h>
 #include <perimorph/parameters/probes.h>
 #include <perimorph/solvers/linear_solver.h>
+#include <perimorph/solvers/load_stepping.h>
 #include <perimorph/solvers/newton.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -37,16 +38,19 @@ namespace Perimorph::Application
                 influence_function = "gaussian", coupling = "consistent";
     double horizon_ratio = 2., horizon = 0., stabilization = 1.;
 
-    std::string symmetry, displacement, traction, pressure, body_force,
-      point_displacement, point_force;
+    std::string symmetry, displacement, mean_displacement, rigid_plate,
+      traction, pressure, follower_pressure, body_force, point_displacement,
+      point_force;
     bool remove_rigid_motion = true;
 
-    unsigned int n_steps  = 1;
+    unsigned int n_steps = 1, maximum_cuts = 10, maximum_arc_steps = 200;
     double       end_time = 1.;
+    std::string  control  = "load";
 
     std::string constants;
 
-    std::string  linear_solver = "automatic", tangent = "automatic";
+    std::string  linear_solver = "automatic", tangent = "automatic",
+                line_search = "inadmissible";
     double       linear_tolerance = 1e-12, newton_tolerance = 1e-9;
     unsigned int maximum_newton_iterations = 20;
 
@@ -90,6 +94,7 @@ namespace Perimorph::Application
     std::string                   mesh_file;
     std::map<std::string, double> geometry_parameters;
 
+    std::string                              law;
     Materials::PlaneState                    state;
     MaterialConstants                        material;
     std::map<std::string, MaterialConstants> volume_materials;
@@ -98,8 +103,11 @@ namespace Perimorph::Application
     Coupling::CouplingParameters coupling;
     Fem::BoundaryConditions<dim> boundary_conditions;
 
-    unsigned int n_steps;
-    double       end_time;
+    unsigned int                    n_steps;
+    double                          end_time;
+    bool                            arc_length;
+    unsigned int                    maximum_arc_steps;
+    Solvers::LoadSteppingParameters load_stepping;
 
     Solvers::LinearSolverKind linear_solver;
     Solvers::TangentKind      tangent;
@@ -121,6 +129,10 @@ namespace Perimorph::Application
 
     bool write_fields, write_stress, write_particles;
 
+    /// True if the law is not that of small strain.
+    bool
+    finite_strain() const;
+
     /// Times of the load steps.
     std::vector<double>
     times() const;
@@ -139,7 +151,7 @@ namespace Perimorph::Application
                     const std::string         &parameter_file,
                     Base::InputErrorCollector &errors);
     void
-    check_bond_based(Base::InputErrorCollector &errors) const;
+    check_law(Base::InputErrorCollector &errors) const;
 
     Parameters::Constants constants;
   };

@@ -51,6 +51,14 @@ namespace Perimorph::Base
     using std::runtime_error::runtime_error;
   };
 
+  /// A state that no law can answer, e.g. J <= 0: a Newton step that leads there
+  /// is too long.
+  class InadmissibleState : public SolveError
+  {
+  public:
+    using SolveError::SolveError;
+  };
+
   /// Gathers the messages of all checks, so that a user sees them at once.
   class InputErrorCollector
   {

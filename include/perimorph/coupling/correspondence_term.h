@@ -61,6 +61,7 @@ namespace Perimorph::Coupling
 
     Peridynamics::FamilySet<dim>        families; ///< local nodes
     std::vector<dealii::Tensor<1, dim>> xi;       ///< one per bond
+    std::vector<dealii::Point<dim>>     position; ///< one per particle
     const MaterialList                 &materials;
     unsigned int                        largest_family = 0;
   };

@@ -59,11 +59,13 @@ namespace Perimorph::Coupling
     using Vector   = Fem::Vector;
     using Progress = std::function<void(std::size_t, std::size_t)>;
 
+    /// @param more_nodes  nodes that every rank must see (constraints)
     CoupledProblem(const Mesh::DistributedMesh<dim> &mesh,
                    const Mesh::RegionMap            &region,
                    const BodyMaterials<dim>         &materials,
                    const CouplingParameters         &parameters,
-                   const Progress                   &progress = {});
+                   const Progress                   &progress   = {},
+                   std::vector<unsigned int>         more_nodes = {});
 
     const Fem::NodePartition<dim> &
     partition() const
@@ -95,6 +97,7 @@ namespace Perimorph::Coupling
     is_symmetric() const;
 
     /// Internal forces into a vector with ghosts; exchanged and complete.
+    /// @throws Base::InadmissibleState  on all ranks
     /// @param displacement  ghosts up to date
     void
     internal_forces(const Vector &displacement, Vector &forces) const;
@@ -104,8 +107,8 @@ namespace Perimorph::Coupling
     strain_energy(const Vector &displacement) const;
 
     /// The affine patch test on this mesh: largest difference between internal
-    /// forces and finite-element forces over unit strains, relative to
-    /// |stress| spacing^(dim - 1).
+    /// forces and finite-element forces over unit strains (strains of 0.1 if
+    /// the problem is not linear), relative to |stress| spacing^(dim - 1).
     /// @param excluded  degrees of freedom that do not count (Dirichlet)
     double
     ghost_force(const std::function<bool(unsigned int)> &excluded) const;
@@ -144,6 +147,7 @@ namespace Perimorph::Coupling
 
     const Mesh::DistributedMesh<dim>        &mesh;
     const BodyMaterials<dim>                &materials;
+    std::vector<unsigned int>                more_nodes;
     std::unique_ptr<Fem::NodePartition<dim>> node_partition;
     std::unique_ptr<Fem::ElasticCells<dim>>  all_cells;
     std::vector<std::unique_ptr<Term>>       contributions;

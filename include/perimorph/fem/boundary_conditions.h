@@ -27,14 +27,26 @@ namespace Perimorph::Fem
     label() const;
   };
 
+  /// A boundary held as a whole: the mean of its displacement (the reaction is
+  /// spread evenly), or a rigid plate glued to it, held at its centroid.
+  template <int dim>
+  struct BoundaryMotion
+  {
+    std::string               boundary;
+    ComponentExpressions<dim> translation; ///< free where empty
+    /// Angle [rad]; in 3D zero, about all axes. Free if empty.
+    std::optional<Parameters::Expression> rotation;
+  };
+
   /// Force per reference area on a named boundary; a pressure pushes against
-  /// the outward normal.
+  /// the outward normal, of the deformed surface if it follows.
   template <int dim>
   struct SurfaceLoad
   {
     std::string                           boundary;
     ComponentExpressions<dim>             traction;
     std::optional<Parameters::Expression> pressure;
+    bool                                  follows = false;
   };
 
   /// Force per reference volume, in a named volume or everywhere (empty).
@@ -59,6 +71,8 @@ namespace Perimorph::Fem
   {
     std::vector<std::string>                symmetry;
     std::vector<DisplacementCondition<dim>> displacement;
+    std::vector<BoundaryMotion<dim>>        mean_displacement;
+    std::vector<BoundaryMotion<dim>>        rigid_plates;
     std::vector<SurfaceLoad<dim>>           surface_loads;
     std::vector<BodyForce<dim>>             body_forces;
     std::vector<PointForce<dim>>            point_forces;

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <perimorph/base/exceptions.h>
 #include <perimorph/fem/node_partition.h>
 
 #include <deal.II/lac/full_matrix.h>
 
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -70,7 +72,7 @@ namespace Perimorph::Fem
       return row_weights.empty() ? 1. : row_weights[local_node];
     }
 
-    bool
+    virtual bool
     is_symmetric() const
     {
       return row_weights.empty();
@@ -78,6 +80,23 @@ namespace Perimorph::Fem
 
   protected:
     std::vector<double> row_weights;
+
+    /// Calls an action for the block at a point; says where a law gave up.
+    template <typename Action>
+    static void
+    at_place(const dealii::Point<dim> &point, const Action &action)
+    {
+      try
+        {
+          action();
+        }
+      catch (const Base::InadmissibleState &error)
+        {
+          std::ostringstream text;
+          text << error.what() << " at the point (" << point << ")";
+          throw Base::InadmissibleState(text.str());
+        }
+    }
 
     static dealii::Tensor<1, dim>
     value_at(const double *vector, const unsigned int local_node)

@@ -7,7 +7,8 @@
 namespace Perimorph::Fem
 {
   /// External forces of a load step: surface, body and point forces, lumped
-  /// with the finite-element shape functions. Nodes of peridynamic surfaces are
+  /// with the finite-element shape functions (pressures that follow the
+  /// surface are FollowerPressure's). Nodes of peridynamic surfaces are
   /// loaded the same way: the consistent internal forces balance exactly these.
   template <int dim>
   class Loads
@@ -34,6 +35,19 @@ namespace Perimorph::Fem
 
     bool
     empty() const;
+
+    const std::vector<SurfaceLoad<dim>> &
+    surface_loads() const
+    {
+      return conditions.surface_loads;
+    }
+
+    /// Nodes with a point force.
+    const std::vector<unsigned int> &
+    loaded_points() const
+    {
+      return point_force_nodes;
+    }
 
   private:
     template <typename Add>

@@ -7,6 +7,11 @@
 
 namespace Perimorph::Fem
 {
+  /// Antisymmetric generators of the rotations: one in 2D, three in 3D.
+  template <int dim>
+  const std::vector<dealii::Tensor<2, dim>> &
+  rotation_generators();
+
   /// One rigid motion that the supports leave free: a field over the nodes of
   /// one piece of the body.
   template <int dim>

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <perimorph/coupling/coupled_problem.h>
+#include <perimorph/fem/follower_pressure.h>
 #include <perimorph/fem/loads.h>
 #include <perimorph/fem/supports.h>
+#include <perimorph/solvers/constraints.h>
 #include <perimorph/solvers/linear_solver.h>
 #include <perimorph/solvers/newton.h>
 #include <perimorph/solvers/tangent.h>
@@ -26,6 +28,13 @@ namespace Perimorph::Solvers
     NewtonParameters newton;
   };
 
+  /// Where a path of equilibrium is followed by its arc length.
+  struct ArcLength
+  {
+    double radius = 0.; ///< of the next step; zero: from the first time step
+    Vector direction;   ///< increment of the last step
+  };
+
   /// Finds the displacement whose internal forces balance the loads of a time:
   /// Newton's method on the coupled problem. A linear problem keeps its
   /// factorisation (or preconditioner) over all steps and needs one iteration.
@@ -33,11 +42,10 @@ namespace Perimorph::Solvers
   class Equilibrium
   {
   public:
-    using Report = std::function<void(unsigned int iteration,
-                                      double       relative_residual,
-                                      unsigned int linear_iterations)>;
+    using Report = std::function<void(const NewtonIteration &)>;
 
-    Equilibrium(const Coupling::CoupledProblem<dim> &problem,
+    Equilibrium(const Mesh::DistributedMesh<dim>    &mesh,
+                const Coupling::CoupledProblem<dim> &problem,
                 const Fem::Supports<dim>            &supports,
                 const Fem::Loads<dim>               &loads,
                 const EquilibriumParameters         &parameters,
@@ -51,10 +59,33 @@ namespace Perimorph::Solvers
       return solver_choice;
     }
 
-    /// Solves at a time, starting from the displacement given.
-    /// @throws Base::SolveError  a singular tangent, no linear convergence
+    bool
+    is_symmetric() const
+    {
+      return problem.is_symmetric() && !follower.acts();
+    }
+
+    bool
+    is_linear() const
+    {
+      return problem.is_linear() && !follower.acts();
+    }
+
+    /// Solves at a time, starting from the displacement given, which is what it
+    /// was before if the record says that there was no convergence.
     NewtonRecord
     solve(double time, Vector &displacement, const Report &report);
+
+    /// One step along the path of equilibrium: time and displacement are both
+    /// unknown, their distance from the start is given (Ramm's normal plane).
+    /// @param time       in: of the state given, out: of the state found
+    /// @param first_step time step that sets the radius of the first arc step
+    NewtonRecord
+    solve_arc_step(double       &time,
+                   Vector       &displacement,
+                   ArcLength    &arc,
+                   double        first_step,
+                   const Report &report);
 
     /// Forces of the last state evaluated; owned entries.
     const Vector &
@@ -68,7 +99,8 @@ namespace Perimorph::Solvers
       return external;
     }
 
-    /// Largest norm of loads, reactions or residuals over the solves so far.
+    /// Largest norm of loads, reactions or first residuals over the solves so
+    /// far.
     double
     largest_force_met() const
     {
@@ -77,7 +109,23 @@ namespace Perimorph::Solvers
 
   private:
     void
+    evaluate_loads(double time);
+    /// Residual of the free equations at a state into rhs; also what the
+    /// supports still have to move, in `particular`.
+    ResidualNorms
+    evaluate(double time, Vector &displacement, bool first);
+    /// Adds the tangent times a direction to the product; owned entries.
+    void
+    tangent_product(const Vector &displacement,
+                    const Vector &direction,
+                    Vector       &result);
+    void
     prepare_linear_solver(const Vector &displacement);
+    /// Newton's method whose failures of any kind end up in the record and
+    /// leave displacement and constraints as they were.
+    NewtonRecord
+    guarded(Vector                                &displacement,
+            const std::function<NewtonRecord()>   &solve);
 
     const Coupling::CoupledProblem<dim>  &problem;
     const Fem::Supports<dim>             &supports;
@@ -85,16 +133,17 @@ namespace Perimorph::Solvers
     EquilibriumParameters                 parameters;
     Base::Log                            &log;
     Base::Timing                         &timing;
+    Fem::FollowerPressure<dim>            follower;
     LinearSolverChoice                    solver_choice;
-    dealii::AffineConstraints<double>     constraints;
-    std::vector<unsigned int>             constrained; ///< owned, local entries
+    Constraints<dim>                      constraints;
     TangentAssembler<dim>                 assembler;
     Matrix                                matrix;
     Matrix                                preconditioner_matrix;
     std::unique_ptr<TangentOperator<dim>> tangent;
     std::unique_ptr<LinearSolver>         linear_solver;
     bool                                  pattern_is_made = false;
-    Vector                                internal, external, rhs, correction;
-    double                                largest_force = 0.;
+    Vector internal, external, dead_loads, out_of_balance, rhs, correction,
+      particular, product;
+    double largest_force = 0.;
   };
 } // namespace Perimorph::Solvers

@@ -1,0 +1,370 @@
+#include <perimorph/application/simulation.h>
+#include <perimorph/base/collective.h>
+#include <perimorph/base/log.h>
+#include <perimorph/output/csv_writer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace Perimorph::Application
+{
+  namespace
+  {
+    /// |work - energy| relative to the larger one; zero where both are only
+    /// round-off of the largest force times the largest displacement.
+    double
+    energy_balance(const double work, const double energy, const double scale)
+    {
+      const double larger = std::max(std::abs(work), std::abs(energy));
+      return larger > 1e-12 * scale ? std::abs(work - energy) / larger : 0.;
+    }
+
+    std::string
+    residuals_text(const Solvers::NewtonRecord &record)
+    {
+      std::ostringstream text;
+      if (!record.residuals.empty())
+        text << "; relative residuals";
+      for (const double residual : record.residuals)
+        text << " " << residual;
+      return text.str();
+    }
+  } // namespace
+
+  template <int dim>
+  bool
+  Simulation<dim>::follow_loads(Method         &method,
+                                const OnStep   &on_step,
+                                const OnNewton &on_newton)
+  {
+    if (parameters.arc_length)
+      return follow_arc(method, on_step, on_newton);
+    const auto            times = parameters.times();
+    Solvers::LoadStepping stepping(parameters.load_stepping);
+    double                time = 0.;
+    for (unsigned int number = 1; number <= times.size(); ++number)
+      {
+        const double          end = times[number - 1];
+        Step                  step{number, end};
+        Solvers::NewtonRecord record;
+        log << "Load step " << number << " of " << times.size()
+            << ", t = " << end << std::endl;
+        const auto attempt = [&](const double target) {
+          step.time = target;
+          record    = method.equilibrium->solve(
+            target, method.displacement, [&](const auto &iteration) {
+              on_newton(step, iteration);
+            });
+          step.newton_iterations += record.n_iterations();
+          step.linear_iterations += record.linear_iterations;
+          if (record.converged)
+            {
+              ++step.n_increments;
+              step.relative_residual = record.residuals.back();
+            }
+          return record.converged;
+        };
+        const auto on_cut = [&](const double failed, const double next) {
+          log << "  t = " << failed << " failed: " << record.reason
+              << "; cut to t = " << next << std::endl;
+        };
+        const auto on_intermediate = [&](const double reached) {
+          log << "  t = " << reached << " converged" << std::endl;
+        };
+        const double reached =
+          stepping.advance(time, end, attempt, on_cut, on_intermediate);
+        if (reached == end)
+          {
+            on_step(step);
+            time = end;
+            continue;
+          }
+        std::ostringstream text;
+        text << "load step " << number << " (t = " << step.time
+             << ") did not converge";
+        if (parameters.load_stepping.maximum_cuts > 0 && !method.equilibrium
+              ->is_linear())
+          text << ", not even after " << parameters.load_stepping.maximum_cuts
+               << " cuts";
+        text << ": " << record.reason << residuals_text(record)
+             << ". The last converged state is that of t = " << reached
+             << ", in '" << parameters.output_folder << "'.";
+        if (!parameters.arc_length && parameters.finite_strain())
+          text << " Beyond a limit point 'Load steps / control = arc length' "
+                  "may help.";
+        if (reached != time)
+          {
+            step.time = reached;
+            on_step(step);
+          }
+        throw Base::SolveError(text.str());
+      }
+    return true;
+  }
+
+  template <int dim>
+  bool
+  Simulation<dim>::follow_arc(Method         &method,
+                              const OnStep   &on_step,
+                              const OnNewton &on_newton)
+  {
+    const double end        = parameters.end_time;
+    const double first_step = end / parameters.n_steps;
+    double       time       = 0.;
+    double       peak       = 0.;
+    unsigned int n_cuts     = 0;
+
+    Solvers::ArcLength arc;
+    for (unsigned int number = 1; number <= parameters.maximum_arc_steps;)
+      {
+        Step step{number, time};
+        log << "Arc step " << number << " from t = " << time << std::endl;
+        const auto report = [&](const auto &iteration) {
+          on_newton(step, iteration);
+        };
+        Fem::Vector start(method.displacement);
+        start                 = method.displacement;
+        const auto start_arc  = arc;
+        double     target     = time;
+        auto       record = method.equilibrium->solve_arc_step(
+          target, method.displacement, arc, first_step, report);
+        bool last = false;
+        if (record.converged && target >= end)
+          {
+            // The path crosses the end: go there exactly.
+            auto beyond         = method.displacement;
+            method.displacement = start;
+            step.time           = end;
+            const auto exact =
+              method.equilibrium->solve(end, method.displacement, report);
+            last = exact.converged;
+            if (last)
+              {
+                record = exact;
+                target = end;
+              }
+            else
+              method.displacement = beyond;
+          }
+        step.newton_iterations += record.n_iterations();
+        step.linear_iterations += record.linear_iterations;
+        if (!record.converged)
+          {
+            log << "  failed: " << record.reason << "; half the arc length"
+                << std::endl;
+            if (++n_cuts > parameters.load_stepping.maximum_cuts ||
+                arc.radius == 0.)
+              {
+                std::ostringstream text;
+                text << "arc step " << number << " (from t = " << time
+                     << ") did not converge: " << record.reason
+                     << residuals_text(record)
+                     << ". The last converged state is in '"
+                     << parameters.output_folder << "'.";
+                throw Base::SolveError(text.str());
+              }
+            continue;
+          }
+        n_cuts                 = 0;
+        time                   = target;
+        peak                   = std::max(peak, time);
+        step.time              = time;
+        step.n_increments      = 1;
+        step.relative_residual = record.residuals.back();
+        on_step(step);
+        if (last)
+          return true;
+        ++number;
+      }
+    log.warning("the arc length stopped before the end time: the largest t "
+                "reached is " +
+                Output::shortest_text(peak));
+    return false;
+  }
+
+  template <int dim>
+  bool
+  Simulation<dim>::solve_load_steps(Method &method)
+  {
+    const auto                        &folder = parameters.output_folder;
+    std::unique_ptr<Output::CsvWriter> newton_table, step_table, quantity_table;
+    Base::collectively(communicator, [&]() {
+      newton_table = std::make_unique<Output::CsvWriter>(
+        folder + "/newton.csv",
+        std::vector<std::string>{"step",
+                                 "time",
+                                 "iteration",
+                                 "residual",
+                                 "relative_residual",
+                                 "step_length",
+                                 "linear_iterations"},
+        log);
+      step_table = std::make_unique<Output::CsvWriter>(
+        folder + "/load_steps.csv",
+        std::vector<std::string>{"step",
+                                 "time",
+                                 "increments",
+                                 "newton_iterations",
+                                 "linear_iterations",
+                                 "relative_residual",
+                                 "strain_energy",
+                                 "external_work",
+                                 "largest_displacement",
+                                 "imbalance"},
+        log);
+    });
+    files.push_back("newton.csv");
+    files.push_back("load_steps.csv");
+    State<dim> previous      = gather(method);
+    double     work          = 0.; // of loads and supports
+    double     largest_force = 0.;
+    if (parameters.write_fields)
+      write_fields(method, previous, 0, 0.);
+
+    const auto on_newton = [&](const Step                     &step,
+                               const Solvers::NewtonIteration &iteration) {
+      log << "  Newton iteration " << iteration.iteration
+          << ": relative residual " << iteration.relative_residual;
+      if (iteration.iteration > 0)
+        log << ", " << iteration.linear_iterations << " linear iteration"
+            << (iteration.linear_iterations == 1 ? "" : "s");
+      if (iteration.iteration > 0 && iteration.step_length < 1.)
+        log << ", step length " << iteration.step_length;
+      log << std::endl;
+      newton_table->write_row({step.number,
+                               step.time,
+                               iteration.iteration,
+                               iteration.residual,
+                               iteration.relative_residual,
+                               iteration.step_length,
+                               iteration.linear_iterations});
+    };
+    const auto on_step = [&](const Step &step) {
+      result->add_count("newton_iterations", step.newton_iterations);
+      result->add_count("linear_iterations", step.linear_iterations);
+      remove_mean_rigid_motion(method);
+      const auto state   = gather(method);
+      double     largest = 0.;
+      for (unsigned int n = 0; n < state.displacement.size(); ++n)
+        {
+          work += 0.5 *
+                  (post_processing->outer_force(n, previous) +
+                   post_processing->outer_force(n, state)) *
+                  (state.displacement[n] - previous.displacement[n]);
+          largest = std::max(largest, state.displacement[n].norm());
+        }
+      largest_force =
+        std::max(largest_force, method.equilibrium->largest_force_met());
+      const double imbalance = post_processing->imbalance(state, largest_force);
+      step_table->write_row({step.number,
+                             step.time,
+                             step.n_increments,
+                             step.newton_iterations,
+                             step.linear_iterations,
+                             step.relative_residual,
+                             state.strain_energy,
+                             work,
+                             largest,
+                             imbalance});
+      result->set("checks", "imbalance", imbalance);
+      // Between the states of a path that is not straight the work is that of
+      // the trapezoidal rule.
+      if (method.equilibrium->is_linear())
+        result->set(
+          "checks",
+          "energy_balance",
+          energy_balance(work, state.strain_energy, largest_force * largest));
+      log << "  largest displacement " << largest << ", strain energy "
+          << state.strain_energy << ", out-of-balance " << imbalance
+          << std::endl;
+      if (imbalance > 1e-6)
+        log.warning("loads and reactions do not balance (relative "
+                    "out-of-balance force or moment above 1e-6)");
+      warn_of_point_supports(state, largest_force);
+      if (parameters.n_steps > 1 || parameters.arc_length)
+        {
+          const auto timer      = timing.scope("recovery");
+          const auto quantities = post_processing->evaluate(state);
+          if (!quantity_table)
+            {
+              std::vector<std::string> columns = {"step", "time"};
+              for (const auto &quantity : quantities)
+                columns.push_back(quantity.name);
+              Base::collectively(communicator, [&]() {
+                quantity_table =
+                  std::make_unique<Output::CsvWriter>(folder +
+                                                        "/quantities.csv",
+                                                      columns,
+                                                      log);
+              });
+              files.push_back("quantities.csv");
+            }
+          std::vector<Output::CsvCell> row = {step.number, step.time};
+          for (const auto &quantity : quantities)
+            row.push_back(quantity.value);
+          quantity_table->write_row(row);
+        }
+      if (parameters.write_fields)
+        write_fields(method, state, step.number, step.time);
+      previous = state;
+    };
+    bool some_step_converged = false;
+    try
+      {
+        return follow_loads(
+          method,
+          [&](const Step &step) {
+            on_step(step);
+            some_step_converged = true;
+          },
+          on_newton);
+      }
+    catch (const Base::SolveError &)
+      {
+        if (some_step_converged)
+          evaluate(gather(method));
+        throw;
+      }
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::warn_of_point_supports(const State<dim> &state,
+                                          const double      largest_force)
+  {
+    if (point_supports_checked)
+      return;
+    point_supports_checked = true;
+    for (const auto &[node, label] : supports->point_supports())
+      {
+        const auto reaction = post_processing->outer_force(node, state) -
+                              state.external_force[node];
+        if (reaction.norm() < 1e-6 * largest_force)
+          continue;
+        std::ostringstream text;
+        text << "the " << label << " carries a force of " << reaction.norm()
+             << ": in a " << dim << "D solid a force in a single point moves "
+             << "it without limit as the mesh is refined. Spread the support "
+                "over a boundary ('mean displacement', 'rigid plate').";
+        log.warning(text.str());
+      }
+  }
+
+  template bool
+  Simulation<2>::follow_loads(Method &, const OnStep &, const OnNewton &);
+  template bool
+  Simulation<3>::follow_loads(Method &, const OnStep &, const OnNewton &);
+  template bool
+  Simulation<2>::follow_arc(Method &, const OnStep &, const OnNewton &);
+  template bool
+  Simulation<3>::follow_arc(Method &, const OnStep &, const OnNewton &);
+  template bool
+  Simulation<2>::solve_load_steps(Method &);
+  template bool
+  Simulation<3>::solve_load_steps(Method &);
+  template void
+  Simulation<2>::warn_of_point_supports(const State<2> &, double);
+  template void
+  Simulation<3>::warn_of_point_supports(const State<3> &, double);
+} // namespace Perimorph::Application
