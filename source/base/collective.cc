@@ -18,7 +18,7 @@ namespace Perimorph::Base
     {
       fine,
       bad_input,
-      inadmissible,
+      inadmissible_state,
       failed_solve
     };
     int                      outcome = fine;
@@ -34,7 +34,7 @@ namespace Perimorph::Base
       }
     catch (const InadmissibleState &error)
       {
-        outcome  = inadmissible;
+        outcome  = inadmissible_state;
         messages = {error.what()};
       }
     catch (const std::exception &error)
@@ -53,7 +53,7 @@ namespace Perimorph::Base
     messages = MPI::broadcast(communicator, messages, first);
     if (outcome == bad_input)
       throw InputError(messages);
-    if (outcome == inadmissible)
+    if (outcome == inadmissible_state)
       throw InadmissibleState(messages.front());
     throw SolveError(messages.front());
   }

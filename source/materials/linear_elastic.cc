@@ -11,14 +11,8 @@ namespace Perimorph
                                       const double     poissons_ratio,
                                       const PlaneState state)
       : state(state)
-      , lame_lambda(youngs_modulus * poissons_ratio /
-                    ((1. + poissons_ratio) * (1. - 2. * poissons_ratio)))
-      , lame_mu(youngs_modulus / (2. * (1. + poissons_ratio)))
-    {
-      if (state == PlaneState::plane_stress)
-        lame_lambda = youngs_modulus * poissons_ratio /
-                      (1. - poissons_ratio * poissons_ratio);
-    }
+      , lame(lame_constants(youngs_modulus, poissons_ratio, state))
+    {}
 
     template <int dim>
     std::string
@@ -40,8 +34,8 @@ namespace Perimorph
     {
       const auto   strain     = symmetrize(H);
       const double dilatation = trace(strain);
-      return 0.5 * lame_lambda * dilatation * dilatation +
-             lame_mu * (strain * strain);
+      return 0.5 * lame.lambda * dilatation * dilatation +
+             lame.mu * (strain * strain);
     }
 
     template <int dim>
@@ -50,9 +44,9 @@ namespace Perimorph
       const dealii::Tensor<2, dim> &H) const
     {
       const auto strain = symmetrize(H);
-      return lame_lambda * trace(strain) *
+      return lame.lambda * trace(strain) *
                dealii::unit_symmetric_tensor<dim>() +
-             2. * lame_mu * strain;
+             2. * lame.mu * strain;
     }
 
     template <int dim>
@@ -63,9 +57,9 @@ namespace Perimorph
       for (int i = 0; i < dim; ++i)
         for (int j = 0; j < dim; ++j)
           {
-            A[i][i][j][j] += lame_lambda;
-            A[i][j][i][j] += lame_mu;
-            A[i][j][j][i] += lame_mu;
+            A[i][i][j][j] += lame.lambda;
+            A[i][j][i][j] += lame.mu;
+            A[i][j][j][i] += lame.mu;
           }
       return A;
     }
@@ -76,15 +70,23 @@ namespace Perimorph
       const dealii::Tensor<2, dim> &H) const
     {
       return state == PlaneState::plane_strain
-               ? lame_lambda * trace(symmetrize(H))
+               ? lame.lambda * trace(symmetrize(H))
                : 0.;
+    }
+
+    template <int dim>
+    double
+    LinearElastic<dim>::out_of_plane_stretch(
+      const dealii::Tensor<2, dim> &H) const
+    {
+      return 1. - lame.contraction * trace(symmetrize(H));
     }
 
     template <int dim>
     double
     LinearElastic<dim>::shear_modulus() const
     {
-      return lame_mu;
+      return lame.mu;
     }
 
     template class LinearElastic<2>;

@@ -51,8 +51,8 @@ namespace Perimorph::Base
     using std::runtime_error::runtime_error;
   };
 
-  /// A state that no law can answer, e.g. J <= 0: a Newton step that leads there
-  /// is too long.
+  /// A deformation that no law can answer (J = det F <= 0, no stress-free
+  /// thickness): Newton may shorten its step on it.
   class InadmissibleState : public SolveError
   {
   public:

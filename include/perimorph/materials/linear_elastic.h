@@ -1,19 +1,12 @@
 #pragma once
 
 #include <perimorph/materials/material.h>
+#include <perimorph/materials/plane_state.h>
 
 namespace Perimorph
 {
   namespace Materials
   {
-    /// What a two-dimensional model assumes of the third direction.
-    enum class PlaneState
-    {
-      plane_stress,
-      plane_strain,
-      three_dimensional
-    };
-
     /// Isotropic linear elasticity at small strain:
     /// P = lambda tr(e) I + 2 mu e with e = sym(H). In plane stress lambda
     /// is replaced by 2 lambda mu / (lambda + 2 mu).
@@ -40,12 +33,13 @@ namespace Perimorph
       double
       out_of_plane_stress(const dealii::Tensor<2, dim> &H) const override;
       double
+      out_of_plane_stretch(const dealii::Tensor<2, dim> &H) const override;
+      double
       shear_modulus() const override;
 
     private:
-      PlaneState state;
-      double     lame_lambda; ///< of the in-plane law
-      double     lame_mu;
+      PlaneState    state;
+      LameConstants lame;
     };
   } // namespace Materials
 } // namespace Perimorph

@@ -16,6 +16,10 @@ namespace Perimorph
     /// carry the round-off of I: a relative error of 1e-16 / |H|.) P is the
     /// first Piola-Kirchhoff stress and A its derivative [stress, in the units
     /// of Young's modulus].
+    ///
+    /// A finite-strain law throws Base::InadmissibleState from each of these
+    /// functions where it has no answer: J = det F <= 0 or not finite, or no
+    /// stress-free thickness in plane stress.
     template <int dim>
     class Material
     {
@@ -42,9 +46,15 @@ namespace Perimorph
       tangent(const dealii::Tensor<2, dim> &H) const = 0;
 
       /// Normal stress across the plane of a 2D model (zero in plane stress and
-      /// meaningless, zero, in 3D).
+      /// meaningless, zero, in 3D); the first Piola-Kirchhoff component P33 of
+      /// a finite-strain law.
       virtual double
       out_of_plane_stress(const dealii::Tensor<2, dim> &H) const = 0;
+
+      /// Stretch F33 of the thickness [-]: 1 in plane strain and 3D; in plane
+      /// stress that of the law (1 + e33 of a small-strain law).
+      virtual double
+      out_of_plane_stretch(const dealii::Tensor<2, dim> &H) const = 0;
 
       /// Shear modulus at rest, the scale of the zero-energy stabilisation.
       virtual double

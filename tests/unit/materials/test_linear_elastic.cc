@@ -1,59 +1,18 @@
 #include <perimorph/materials/linear_elastic.h>
 
+#include "derivative_checks.h"
 #include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
 
 namespace Perimorph::Materials
 {
   namespace
   {
     template <int dim>
-    dealii::Tensor<2, dim>
-    random_gradient(const unsigned int seed)
-    {
-      std::mt19937                           generator(seed);
-      std::uniform_real_distribution<double> number(-0.1, 0.1);
-      dealii::Tensor<2, dim>                 H;
-      for (int a = 0; a < dim; ++a)
-        for (int b = 0; b < dim; ++b)
-          H[a][b] = number(generator);
-      return H;
-    }
-
-    template <int dim>
     void
-    expect_derivatives_match(const Material<dim> &material)
+    expect_derivatives_match_everywhere(const LinearElastic<dim> &law)
     {
-      const double step = 1e-5;
-      for (unsigned int seed = 0; seed < 5; ++seed)
-        {
-          const auto H = random_gradient<dim>(seed);
-          const auto P = material.first_piola_kirchhoff(H);
-          const auto A = material.tangent(H);
-          for (int k = 0; k < dim; ++k)
-            for (int l = 0; l < dim; ++l)
-              {
-                auto plus = H, minus = H;
-                plus[k][l] += step;
-                minus[k][l] -= step;
-                EXPECT_NEAR((material.energy_density(plus) -
-                             material.energy_density(minus)) /
-                              (2. * step),
-                            P[k][l],
-                            1e-8);
-                const auto dP = (material.first_piola_kirchhoff(plus) -
-                                 material.first_piola_kirchhoff(minus)) /
-                                (2. * step);
-                for (int i = 0; i < dim; ++i)
-                  for (int j = 0; j < dim; ++j)
-                    {
-                      EXPECT_NEAR(dP[i][j], A[i][j][k][l], 1e-8);
-                      EXPECT_EQ(A[i][j][k][l], A[k][l][i][j]);
-                    }
-              }
-        }
+      for (const auto &H : states_of_deformation<dim>(7.))
+        expect_derivatives_match(law, H, 1e-9);
     }
   } // namespace
 
@@ -61,11 +20,11 @@ namespace Perimorph::Materials
   {
     for (const double nu : {-0.3, 0., 0.3, 0.45})
       {
-        expect_derivatives_match(
+        expect_derivatives_match_everywhere(
           LinearElastic<2>(2., nu, PlaneState::plane_stress));
-        expect_derivatives_match(
+        expect_derivatives_match_everywhere(
           LinearElastic<2>(2., nu, PlaneState::plane_strain));
-        expect_derivatives_match(
+        expect_derivatives_match_everywhere(
           LinearElastic<3>(2., nu, PlaneState::three_dimensional));
       }
   }
@@ -101,6 +60,20 @@ namespace Perimorph::Materials
     EXPECT_EQ(
       LinearElastic<2>(E, nu, PlaneState::plane_stress).out_of_plane_stress(H),
       0.);
+  }
+
+  TEST(LinearElastic, thickness_stretches_in_plane_stress_only)
+  {
+    dealii::Tensor<2, 2> H;
+    H[0][0] = 0.02;
+    H[1][1] = 0.01;
+    EXPECT_NEAR(LinearElastic<2>(1., 0.2, PlaneState::plane_stress)
+                  .out_of_plane_stretch(H),
+                1. - 0.2 / 0.8 * 0.03,
+                1e-15);
+    EXPECT_EQ(LinearElastic<2>(1., 0.2, PlaneState::plane_strain)
+                .out_of_plane_stretch(H),
+              1.);
   }
 
   TEST(LinearElastic, small_rotation_is_free)
