@@ -127,7 +127,7 @@ namespace Perimorph::Coupling
     const std::vector<double>                           &alpha,
     const std::vector<double>                           &horizon,
     const std::vector<BondMaterial>                     &materials,
-    const bool                                           with_residual,
+    const ElementShare                                   share,
     const std::function<void(std::size_t, std::size_t)> &progress)
   {
     BondCoupling<dim>     result;
@@ -137,8 +137,10 @@ namespace Perimorph::Coupling
                              alpha,
                              horizon,
                              Bonds::BondSelection::of_this_rank);
-    Bonds::SegmentCutter<dim>             cutter(mesh);
-    SegmentResidual<dim>                  residual(mesh);
+    Bonds::SegmentCutter<dim> cutter(mesh);
+    SegmentResidual<dim>      residual(mesh);
+    SegmentSprings<dim>       springs(mesh);
+    const bool                with_residual = share != ElementShare::none;
     std::vector<Bonds::SegmentPiece<dim>> pieces;
     std::vector<unsigned int>             n_bonds(mesh.n_nodes(), 0);
     for (std::size_t b = 0; b < pairs.size(); ++b)
@@ -173,6 +175,8 @@ namespace Perimorph::Coupling
         ++n_bonds[j];
         if (with_residual)
           residual.add_bond(xi / length, stiffness, length, pieces);
+        if (share == ElementShare::springs)
+          springs.add_bond(stiffness, length, pieces);
         if (pairs.owned[b])
           {
             result.bonds.nodes.push_back({{i, j}});
@@ -182,6 +186,11 @@ namespace Perimorph::Coupling
     if (with_residual)
       {
         residual.solve();
+        if (share == ElementShare::springs)
+          result.springs = springs.finish(residual);
+      }
+    if (share == ElementShare::tensors)
+      {
         result.cells = residual.touched_cells();
         for (std::size_t k = 0; k < result.cells.size(); ++k)
           result.tensors.push_back(residual.tensors(k));
@@ -195,13 +204,13 @@ namespace Perimorph::Coupling
                         const std::vector<double> &,
                         const std::vector<double> &,
                         const std::vector<BondMaterial> &,
-                        bool,
+                        ElementShare,
                         const std::function<void(std::size_t, std::size_t)> &);
   template BondCoupling<3>
   make_bond_coupling<3>(const Mesh::NodalMesh<3> &,
                         const std::vector<double> &,
                         const std::vector<double> &,
                         const std::vector<BondMaterial> &,
-                        bool,
+                        ElementShare,
                         const std::function<void(std::size_t, std::size_t)> &);
 } // namespace Perimorph::Coupling

@@ -6,9 +6,41 @@
 
 namespace Perimorph::Coupling
 {
-  template <int dim>
-  BondTerm<dim>::BondTerm(const BondSet                 &bonds,
-                          const Fem::NodePartition<dim> &partition)
+  namespace
+  {
+    /// Kernels of one bond, chosen at compile time.
+    template <Kinematics kinematics>
+    struct Bond
+    {
+      template <int dim>
+      static double
+      energy(const double                  k,
+             const dealii::Tensor<1, dim> &xi,
+             const dealii::Tensor<1, dim> &eta)
+      {
+        if constexpr (kinematics == Kinematics::finite_strain)
+          return Peridynamics::bond_energy(k, xi, eta);
+        else
+          return Peridynamics::small_bond_energy(k, xi, eta);
+      }
+
+      template <int dim>
+      static dealii::Tensor<1, dim>
+      force(const double                  k,
+            const dealii::Tensor<1, dim> &xi,
+            const dealii::Tensor<1, dim> &eta)
+      {
+        if constexpr (kinematics == Kinematics::finite_strain)
+          return Peridynamics::bond_force(k, xi, eta);
+        else
+          return Peridynamics::small_bond_force(k, xi, eta);
+      }
+    };
+  } // namespace
+
+  template <int dim, Kinematics kinematics>
+  BondTerm<dim, kinematics>::BondTerm(const BondSet                 &bonds,
+                                      const Fem::NodePartition<dim> &partition)
   {
     // Bonds in the order of their first node, so that each node is one block.
     std::vector<std::size_t> order(bonds.nodes.size());
@@ -31,28 +63,28 @@ namespace Perimorph::Coupling
       }
   }
 
-  template <int dim>
+  template <int dim, Kinematics kinematics>
   std::string
-  BondTerm<dim>::name() const
+  BondTerm<dim, kinematics>::name() const
   {
     return "bonds";
   }
 
-  template <int dim>
+  template <int dim, Kinematics kinematics>
   bool
-  BondTerm<dim>::is_linear() const
+  BondTerm<dim, kinematics>::is_linear() const
   {
-    return true;
+    return kinematics == Kinematics::small_strain;
   }
 
-  template <int dim>
+  template <int dim, Kinematics kinematics>
   double
-  BondTerm<dim>::energy(const Vector &displacement) const
+  BondTerm<dim, kinematics>::energy(const Vector &displacement) const
   {
     double sum = 0.;
     for (const Star &star : stars)
       for (std::size_t b = star.begin; b < star.end; ++b)
-        sum += Peridynamics::small_bond_energy(
+        sum += Bond<kinematics>::energy(
           stiffness[b],
           xi[b],
           this->value_at(displacement.begin(), neighbor[b]) -
@@ -60,10 +92,10 @@ namespace Perimorph::Coupling
     return sum;
   }
 
-  template <int dim>
+  template <int dim, Kinematics kinematics>
   void
-  BondTerm<dim>::add_residual(const Vector &displacement,
-                              Vector       &residual) const
+  BondTerm<dim, kinematics>::add_residual(const Vector &displacement,
+                                          Vector       &residual) const
   {
     for (const Star &star : stars)
       {
@@ -71,7 +103,7 @@ namespace Perimorph::Coupling
         dealii::Tensor<1, dim> sum;
         for (std::size_t b = star.begin; b < star.end; ++b)
           {
-            const auto force = Peridynamics::small_bond_force(
+            const auto force = Bond<kinematics>::force(
               stiffness[b],
               xi[b],
               this->value_at(displacement.begin(), neighbor[b]) - own);
@@ -82,26 +114,47 @@ namespace Perimorph::Coupling
       }
   }
 
-  template <int dim>
+  template <int dim, Kinematics kinematics>
   void
-  BondTerm<dim>::add_tangent_product(const Vector &,
-                                     const Vector &direction,
-                                     Vector       &product) const
+  BondTerm<dim, kinematics>::add_tangent_product(
+    [[maybe_unused]] const Vector &displacement,
+    const Vector                  &direction,
+    Vector                        &product) const
   {
-    add_residual(direction, product);
+    if constexpr (kinematics == Kinematics::small_strain)
+      add_residual(direction, product);
+    else
+      for (const Star &star : stars)
+        {
+          const auto own = this->value_at(displacement.begin(), star.node);
+          const auto own_change = this->value_at(direction.begin(), star.node);
+          dealii::Tensor<1, dim> sum;
+          for (std::size_t b = star.begin; b < star.end; ++b)
+            {
+              const auto force =
+                Peridynamics::bond_tangent(
+                  stiffness[b],
+                  xi[b],
+                  this->value_at(displacement.begin(), neighbor[b]) - own) *
+                (this->value_at(direction.begin(), neighbor[b]) - own_change);
+              sum += force;
+              this->add_at(product.begin(), neighbor[b], force);
+            }
+          this->add_at(product.begin(), star.node, -sum);
+        }
   }
 
-  template <int dim>
+  template <int dim, Kinematics kinematics>
   unsigned int
-  BondTerm<dim>::n_blocks() const
+  BondTerm<dim, kinematics>::n_blocks() const
   {
     return stars.size();
   }
 
-  template <int dim>
+  template <int dim, Kinematics kinematics>
   void
-  BondTerm<dim>::block_nodes(const unsigned int         block,
-                             std::vector<unsigned int> &nodes) const
+  BondTerm<dim, kinematics>::block_nodes(const unsigned int         block,
+                                         std::vector<unsigned int> &nodes) const
   {
     nodes.assign(1, stars[block].node);
     nodes.insert(nodes.end(),
@@ -109,19 +162,28 @@ namespace Perimorph::Coupling
                  neighbor.begin() + stars[block].end);
   }
 
-  template <int dim>
+  template <int dim, Kinematics kinematics>
   void
-  BondTerm<dim>::block_tangent(const unsigned int block,
-                               const Vector &,
-                               dealii::FullMatrix<double> &matrix) const
+  BondTerm<dim, kinematics>::block_tangent(
+    const unsigned int             block,
+    [[maybe_unused]] const Vector &displacement,
+    dealii::FullMatrix<double>    &matrix) const
   {
     const Star        &star = stars[block];
     const unsigned int n    = 1 + star.end - star.begin;
     matrix.reinit(dim * n, dim * n);
     for (unsigned int k = 1; k < n; ++k)
       {
-        const std::size_t b = star.begin + k - 1;
-        const auto K = Peridynamics::small_bond_tangent(stiffness[b], xi[b]);
+        const std::size_t      b = star.begin + k - 1;
+        dealii::Tensor<2, dim> K;
+        if constexpr (kinematics == Kinematics::small_strain)
+          K = Peridynamics::small_bond_tangent(stiffness[b], xi[b]);
+        else
+          K = Peridynamics::bond_tangent(
+            stiffness[b],
+            xi[b],
+            this->value_at(displacement.begin(), neighbor[b]) -
+              this->value_at(displacement.begin(), star.node));
         for (int i = 0; i < dim; ++i)
           for (int j = 0; j < dim; ++j)
             {
@@ -282,6 +344,8 @@ namespace Perimorph::Coupling
 
   template class BondTerm<2>;
   template class BondTerm<3>;
+  template class BondTerm<2, Kinematics::finite_strain>;
+  template class BondTerm<3, Kinematics::finite_strain>;
   template class SegmentTerm<2>;
   template class SegmentTerm<3>;
 } // namespace Perimorph::Coupling

@@ -3,6 +3,7 @@
 #include <perimorph/coupling/bond_term.h>
 #include <perimorph/coupling/correspondence_term.h>
 #include <perimorph/coupling/coupled_problem.h>
+#include <perimorph/coupling/segment_piece_term.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -173,9 +174,13 @@ namespace Perimorph::Coupling
                                   const CouplingParameters &parameters,
                                   const Progress           &progress)
   {
-    const auto       &nodal      = mesh.nodal();
-    const bool        forces     = parameters.scheme == Scheme::force_blending;
-    const bool        consistent = parameters.scheme == Scheme::consistent;
+    const auto &nodal      = mesh.nodal();
+    const bool  forces     = parameters.scheme == Scheme::force_blending;
+    const bool  consistent = parameters.scheme == Scheme::consistent;
+    const bool  finite_strain =
+      std::any_of(materials.laws.begin(),
+                  materials.laws.end(),
+                  [](const auto &law) { return !law->is_linear(); });
     BondCoupling<dim> coupling;
     Base::collectively(mesh.communicator(), [&]() {
       coupling = make_bond_coupling(nodal,
@@ -183,7 +188,9 @@ namespace Perimorph::Coupling
                                            : region.alpha,
                                     region.horizon,
                                     materials.bond_constants,
-                                    consistent,
+                                    !consistent      ? ElementShare::none
+                                    : !finite_strain ? ElementShare::tensors
+                                                     : ElementShare::springs,
                                     progress);
     });
     local_counts.bonds   = coupling.bonds.nodes.size();
@@ -194,11 +201,22 @@ namespace Perimorph::Coupling
     std::vector<unsigned int> needed;
     add_bond_nodes(coupling.bonds, needed);
     make_partition(needed);
+    std::unique_ptr<Term> bonds;
+    if (finite_strain)
+      bonds =
+        std::make_unique<FiniteBondTerm<dim>>(coupling.bonds, *node_partition);
+    else
+      bonds = std::make_unique<BondTerm<dim>>(coupling.bonds, *node_partition);
     add_terms(region,
               parameters.scheme,
               consistent ? std::vector<double>() : complement(region.alpha),
-              std::make_unique<BondTerm<dim>>(coupling.bonds, *node_partition));
-    if (consistent)
+              std::move(bonds));
+    if (consistent && finite_strain)
+      contributions.push_back(
+        std::make_unique<SegmentPieceTerm<dim>>(nodal,
+                                                *node_partition,
+                                                std::move(coupling.springs)));
+    else if (consistent)
       contributions.push_back(
         std::make_unique<SegmentTerm<dim>>(nodal, *node_partition, coupling));
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <perimorph/coupling/segment_residual.h>
+#include <perimorph/coupling/segment_springs.h>
 #include <perimorph/materials/linear_elastic.h>
 #include <perimorph/mesh/nodal_mesh.h>
 
@@ -25,6 +25,14 @@ namespace Perimorph::Coupling
     Materials::PlaneState state;
   };
 
+  /// What the elements give up to the bonds that run through them.
+  enum class ElementShare
+  {
+    none,    ///< uncorrected couplings
+    tensors, ///< small strain: SegmentResidual
+    springs  ///< finite strain: SegmentSprings
+  };
+
   /// Bonds with calibrated stiffness, and what the elements must give up so
   /// that bonds and elements together pass the patch test.
   template <int dim>
@@ -33,14 +41,14 @@ namespace Perimorph::Coupling
     BondSet                   bonds;
     std::vector<unsigned int> cells; ///< owned cells with tensors
     std::vector<typename SegmentResidual<dim>::PointTensors> tensors;
+    std::vector<CellSprings<dim>>                            springs;
   };
 
   /// Finds the bonds, drops those that leave the body or their material,
-  /// calibrates them on an ideal lattice, and computes the residual tensors
-  /// (numerics-explicit.md, section 3).
+  /// calibrates them on an ideal lattice, and computes the share of the
+  /// elements (numerics-explicit.md, section 3).
   ///
   /// @param alpha  blending weight per node
-  /// @param with_residual  false for the uncorrected couplings
   /// @param progress  called with the number of bonds done and their total
   template <int dim>
   BondCoupling<dim>
@@ -49,6 +57,6 @@ namespace Perimorph::Coupling
     const std::vector<double>                           &alpha,
     const std::vector<double>                           &horizon,
     const std::vector<BondMaterial>                     &materials,
-    bool                                                 with_residual,
+    ElementShare                                         share,
     const std::function<void(std::size_t, std::size_t)> &progress = {});
 } // namespace Perimorph::Coupling

@@ -6,9 +6,14 @@
 
 namespace Perimorph::Coupling
 {
-  /// Energy of the bonds of this rank at small strain: sum of k (e . eta)^2
-  /// / 2. One block per node that owns bonds.
-  template <int dim>
+  enum class Kinematics
+  {
+    small_strain, ///< k (e . eta)^2 / 2 per bond
+    finite_strain ///< k (|xi + eta| - |xi|)^2 / 2 per bond
+  };
+
+  /// Energy of the bonds of this rank. One block per node that owns bonds.
+  template <int dim, Kinematics kinematics = Kinematics::small_strain>
   class BondTerm : public Fem::Contribution<dim>
   {
   public:
@@ -50,6 +55,9 @@ namespace Perimorph::Coupling
     std::vector<double>                 stiffness;
     std::vector<dealii::Tensor<1, dim>> xi;
   };
+
+  template <int dim>
+  using FiniteBondTerm = BondTerm<dim, Kinematics::finite_strain>;
 
   /// What the elements give up to the bonds that run through them:
   /// E = - 1/2 sum over cells and points of jxw strain : C_q : strain
