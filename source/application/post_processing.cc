@@ -34,6 +34,83 @@ namespace Perimorph::Application
       return a < dim && b < dim ? stress.in_plane[a][b] : stress.out_of_plane;
     }
 
+    /// A value of finite strain beside the Cauchy stress.
+    struct Measure
+    {
+      std::string name; ///< "first_piola_kirchhoff_xy"
+      std::string unit;
+      double      value;
+    };
+
+    /// First Piola-Kirchhoff and Kirchhoff stress, logarithmic strain, by
+    /// component; in 2D those of the plane and zz.
+    template <int dim>
+    std::vector<Measure>
+    finite_strain_measures(const Fracture::Stress<dim> &stress)
+    {
+      std::vector<Measure> list;
+      const auto           add = [&](const std::string &name,
+                           const std::string &unit,
+                           const bool         symmetric,
+                           const auto        &tensor) {
+        for (unsigned int a = 0; a < 3; ++a)
+          for (unsigned int b = symmetric ? a : 0; b < 3; ++b)
+            if (dim == 3 || (a < 2) == (b < 2))
+              list.push_back(
+                {name + "_" + letters[a] + letters[b], unit, tensor[a][b]});
+      };
+      add("first_piola_kirchhoff",
+          "stress",
+          false,
+          stress.first_piola_kirchhoff);
+      add("kirchhoff", "stress", true, stress.kirchhoff);
+      add("logarithmic_strain", "-", true, stress.logarithmic_strain);
+      return list;
+    }
+
+    /// Calls an action for every number of a stress.
+    template <int dim, typename Action>
+    void
+    for_each_number(Fracture::Stress<dim> &stress,
+                    const bool             finite_strain,
+                    const Action          &action)
+    {
+      for (unsigned int c = 0; c < dim * (dim + 1) / 2; ++c)
+        action(stress.in_plane.access_raw_entry(c));
+      action(stress.out_of_plane);
+      if (!finite_strain)
+        return;
+      for (unsigned int a = 0; a < 3; ++a)
+        for (unsigned int b = 0; b < 3; ++b)
+          action(stress.first_piola_kirchhoff[a][b]);
+      for (unsigned int c = 0; c < 6; ++c)
+        action(stress.kirchhoff.access_raw_entry(c));
+      for (unsigned int c = 0; c < 6; ++c)
+        action(stress.logarithmic_strain.access_raw_entry(c));
+    }
+
+    template <int dim>
+    std::vector<double>
+    pack(Fracture::Stress<dim> stress, const bool finite_strain)
+    {
+      std::vector<double> numbers;
+      for_each_number(stress, finite_strain, [&](const double number) {
+        numbers.push_back(number);
+      });
+      return numbers;
+    }
+
+    template <int dim>
+    Fracture::Stress<dim>
+    unpack(const double *numbers, const bool finite_strain)
+    {
+      Fracture::Stress<dim> stress;
+      for_each_number(stress, finite_strain, [&](double &number) {
+        number = *numbers++;
+      });
+      return stress;
+    }
+
     /// Hoop stresses are taken about the centre of the circle of that name.
     template <int dim>
     dealii::Point<dim>
@@ -179,12 +256,16 @@ namespace Perimorph::Application
   std::vector<std::string>
   PostProcessing<dim>::expected_names() const
   {
-    std::vector<std::string> names = {"strain_energy"};
-    const auto add_point_names     = [&names](const std::string &name) {
+    std::vector<std::string> names           = {"strain_energy"};
+    const auto               add_point_names = [&](const std::string &name) {
       for (int d = 0; d < dim; ++d)
         names.push_back(name + "_displacement_" + letters[d]);
       for (const auto &component : Parameters::stress_components(dim))
         names.push_back(name + "_stress_" + component);
+      if (parameters.finite_strain())
+        for (const auto &measure :
+             finite_strain_measures(Fracture::Stress<dim>()))
+          names.push_back(name + "_" + measure.name);
     };
     if (!parameters.stress_concentration.empty())
       {
@@ -232,6 +313,10 @@ namespace Perimorph::Application
       list.push_back({name + "_stress_" + component,
                       stress_component(stress, component),
                       "stress"});
+    if (parameters.finite_strain())
+      for (const auto &measure : finite_strain_measures(stress))
+        list.push_back(
+          {name + "_" + measure.name, measure.value, measure.unit});
   }
 
   template <int dim>
@@ -374,14 +459,16 @@ namespace Perimorph::Application
       return std::vector<Fracture::Stress<dim>>(state.displacement.size());
     const auto &nodal = mesh.nodal();
     // Complete arrays by adding zeros from the other ranks.
-    constexpr unsigned int n_components = dim * (dim + 1) / 2 + 1;
-    std::vector<double>    values(n_components * nodal.n_nodes(), 0.);
+    const unsigned int n_components =
+      pack(Fracture::Stress<dim>(), parameters.finite_strain()).size();
+    std::vector<double> values(n_components * nodal.n_nodes(), 0.);
     for (unsigned int n = nodal.owned_begin; n < nodal.owned_end; ++n)
       {
-        const auto stress = recovery->at_node(n, state.displacement);
-        for (unsigned int c = 0; c + 1 < n_components; ++c)
-          values[n_components * n + c] = stress.in_plane.access_raw_entry(c);
-        values[n_components * n + n_components - 1] = stress.out_of_plane;
+        const auto packed = pack(recovery->at_node(n, state.displacement),
+                                 parameters.finite_strain());
+        std::copy(packed.begin(),
+                  packed.end(),
+                  values.begin() + n_components * n);
         if ((n - nodal.owned_begin) % 1000 == 0)
           progress(n - nodal.owned_begin, nodal.owned_end - nodal.owned_begin);
       }
@@ -389,11 +476,8 @@ namespace Perimorph::Application
       dealii::Utilities::MPI::sum(values, mesh.communicator(), values);
     std::vector<Fracture::Stress<dim>> all(nodal.n_nodes());
     for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
-      {
-        for (unsigned int c = 0; c + 1 < n_components; ++c)
-          all[n].in_plane.access_raw_entry(c) = values[n_components * n + c];
-        all[n].out_of_plane = values[n_components * n + n_components - 1];
-      }
+      all[n] = unpack<dim>(values.data() + n_components * n,
+                           parameters.finite_strain());
     return all;
   }
 

@@ -126,14 +126,13 @@ namespace Perimorph::Application
     };
     {
       const auto family_timer = timing.scope("families");
-      method.problem =
-        std::make_unique<Coupling::CoupledProblem<dim>>(*mesh,
-                                                        method.region,
-                                                        materials,
-                                                        parameters.coupling,
-                                                        report,
-                                                        supports
-                                                          ->coupled_nodes());
+      method.problem          = std::make_unique<Coupling::CoupledProblem<dim>>(
+        *mesh,
+        method.region,
+        materials,
+        parameters.coupling,
+        report,
+        supports->coupled_nodes());
     }
     method.equilibrium = std::make_unique<Solvers::Equilibrium<dim>>(
       *mesh,

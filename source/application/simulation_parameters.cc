@@ -104,7 +104,7 @@ namespace Perimorph::Application
     arc_length                 = texts.control == "arc length";
     maximum_arc_steps          = texts.maximum_arc_steps;
     load_stepping.maximum_cuts = texts.maximum_cuts;
-    linear_solver             = from_name<Solvers::LinearSolverKind>(
+    linear_solver              = from_name<Solvers::LinearSolverKind>(
       texts.linear_solver,
       {"automatic", "direct", "iterative"});
     tangent = from_name<Solvers::TangentKind>(
@@ -280,8 +280,8 @@ namespace Perimorph::Application
                            "'pressure'.");
     auto motion_components = xyz;
     motion_components.push_back("rotation");
-    const auto read_motions = [&](const std::string &entry,
-                                  const std::string &text,
+    const auto read_motions = [&](const std::string                     &entry,
+                                  const std::string                     &text,
                                   std::vector<Fem::BoundaryMotion<dim>> &list) {
       for (const auto &named_entry :
            Parameters::parse_named_components(section + entry,
@@ -471,15 +471,15 @@ namespace Perimorph::Application
           path,
           number_text(found),
           std::string(allowed > 0.3 ? "1/3" : "1/4") + " with " +
-            (bonds ? "bond-based peridynamics" :
-                     "the law prototype microelastic") +
+            (bonds ? "bond-based peridynamics"
+                       : "the law prototype microelastic") +
             " in " +
             (state == Materials::PlaneState::plane_stress   ? "plane stress"
                  : state == Materials::PlaneState::plane_strain ? "plane strain"
                                                                 : "3D"),
           bonds ? "Pair forces along bonds leave no choice; use "
-                  "model = correspondence for other values." :
-                  "It is the continuum of pair forces, which leave no choice.");
+                      "model = correspondence for other values."
+                    : "It is the continuum of pair forces, which leave no choice.");
     };
     check("Material / Poisson's ratio", material.poissons_ratio);
     for (const auto &entry : volume_materials)

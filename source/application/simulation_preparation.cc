@@ -126,9 +126,9 @@ namespace Perimorph::Application
     for (const unsigned int pin : Fem::pins_against(*mesh, free_motions))
       supports->pin(pin);
     log << "No support prevents " << list
-        << (parameters.finite_strain() ?
-              "; it is held at single points." :
-              "; the mean of this motion is removed.")
+        << (parameters.finite_strain()
+              ? "; it is held at single points."
+              : "; the mean of this motion is removed.")
         << std::endl;
   }
 

@@ -124,6 +124,31 @@ namespace Perimorph::Application
         nodal_fields.add("stress", in_plane);
         if (parameters.state == Materials::PlaneState::plane_strain)
           nodal_fields.add("stress_zz", out_of_plane);
+        if (parameters.finite_strain())
+          {
+            std::vector<dealii::SymmetricTensor<2, dim>> kirchhoff, strain;
+            std::vector<std::vector<double>>             piola(dim * dim);
+            for (const auto &stress : stresses)
+              {
+                kirchhoff.emplace_back();
+                strain.emplace_back();
+                for (int a = 0; a < dim; ++a)
+                  for (int b = 0; b < dim; ++b)
+                    {
+                      kirchhoff.back()[a][b] = stress.kirchhoff[a][b];
+                      strain.back()[a][b]    = stress.logarithmic_strain[a][b];
+                      piola[dim * a + b].push_back(
+                        stress.first_piola_kirchhoff[a][b]);
+                    }
+              }
+            for (int a = 0; a < dim; ++a)
+              for (int b = 0; b < dim; ++b)
+                nodal_fields.add(std::string("first_piola_kirchhoff_") +
+                                   "xyz"[a] + "xyz"[b],
+                                 piola[dim * a + b]);
+            nodal_fields.add("kirchhoff_stress", kirchhoff);
+            nodal_fields.add("logarithmic_strain", strain);
+          }
         nodal_fields.add("stress_principal_max", principal);
         nodal_fields.add("stress_von_mises", mises);
       }
@@ -180,16 +205,17 @@ namespace Perimorph::Application
   {
     const auto timer = timing.scope("companion");
     log << "Companion run: finite elements only, same mesh" << std::endl;
-    Method method = set_up(Mesh::Mode::finite_elements);
+    Method     method    = set_up(Mesh::Mode::finite_elements);
     const auto on_newton = [&](const Step &, const auto &iteration) {
       log << "  Newton iteration " << iteration.iteration
           << ": relative residual " << iteration.relative_residual << std::endl;
     };
     try
       {
-        follow_loads(method,
-                     [&](const Step &) { remove_mean_rigid_motion(method); },
-                     on_newton);
+        follow_loads(
+          method,
+          [&](const Step &) { remove_mean_rigid_motion(method); },
+          on_newton);
       }
     catch (const Base::SolveError &error)
       {

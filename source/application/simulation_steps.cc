@@ -53,9 +53,9 @@ namespace Perimorph::Application
         const auto attempt = [&](const double target) {
           step.time = target;
           record    = method.equilibrium->solve(
-            target, method.displacement, [&](const auto &iteration) {
-              on_newton(step, iteration);
-            });
+            target,
+            method.displacement,
+            [&](const auto &iteration) { on_newton(step, iteration); });
           step.newton_iterations += record.n_iterations();
           step.linear_iterations += record.linear_iterations;
           if (record.converged)
@@ -83,8 +83,8 @@ namespace Perimorph::Application
         std::ostringstream text;
         text << "load step " << number << " (t = " << step.time
              << ") did not converge";
-        if (parameters.load_stepping.maximum_cuts > 0 && !method.equilibrium
-              ->is_linear())
+        if (parameters.load_stepping.maximum_cuts > 0 &&
+            !method.equilibrium->is_linear())
           text << ", not even after " << parameters.load_stepping.maximum_cuts
                << " cuts";
         text << ": " << record.reason << residuals_text(record)
@@ -124,12 +124,15 @@ namespace Perimorph::Application
           on_newton(step, iteration);
         };
         Fem::Vector start(method.displacement);
-        start                 = method.displacement;
-        const auto start_arc  = arc;
-        double     target     = time;
-        auto       record = method.equilibrium->solve_arc_step(
-          target, method.displacement, arc, first_step, report);
-        bool last = false;
+        start                = method.displacement;
+        const auto start_arc = arc;
+        double     target    = time;
+        auto       record    = method.equilibrium->solve_arc_step(target,
+                                                         method.displacement,
+                                                         arc,
+                                                         first_step,
+                                                         report);
+        bool       last      = false;
         if (record.converged && target >= end)
           {
             // The path crosses the end: go there exactly.
@@ -292,11 +295,10 @@ namespace Perimorph::Application
               for (const auto &quantity : quantities)
                 columns.push_back(quantity.name);
               Base::collectively(communicator, [&]() {
-                quantity_table =
-                  std::make_unique<Output::CsvWriter>(folder +
-                                                        "/quantities.csv",
-                                                      columns,
-                                                      log);
+                quantity_table = std::make_unique<Output::CsvWriter>(
+                  folder + "/quantities.csv",
+                  columns,
+                  log);
               });
               files.push_back("quantities.csv");
             }

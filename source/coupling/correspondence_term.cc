@@ -1,4 +1,5 @@
 #include <perimorph/coupling/correspondence_term.h>
+#include <perimorph/materials/extrapolated_stress.h>
 
 #include <algorithm>
 
@@ -120,8 +121,8 @@ namespace Perimorph::Coupling
     for (unsigned int p = 0; p < families.n_particles(); ++p)
       {
         relative_displacements(p, displacement.begin(), eta.data());
-        const auto one = family(p);
-        const auto H   = displacement_gradient(one, eta.data());
+        const auto             one = family(p);
+        const auto             H   = displacement_gradient(one, eta.data());
         dealii::Tensor<2, dim> P;
         this->at_place(position[p], [&]() {
           P = materials[families.material[p]]->first_piola_kirchhoff(H);
@@ -156,8 +157,7 @@ namespace Perimorph::Coupling
         else
           {
             relative_displacements(p, displacement.begin(), eta.data());
-            A = materials[material]->tangent(
-              displacement_gradient(one, eta.data()));
+            A = particle_tangent(p, displacement_gradient(one, eta.data()));
           }
         relative_displacements(p, direction.begin(), eta.data());
         const auto dH = displacement_gradient(one, eta.data());
@@ -196,10 +196,49 @@ namespace Perimorph::Coupling
     relative_displacements(block, displacement.begin(), eta.data());
     const auto one = family(block);
     const auto H   = displacement_gradient(one, eta.data());
-    family_tangent(one,
-                   materials[families.material[block]]->tangent(H),
-                   matrix);
+    family_tangent(one, particle_tangent(block, H), matrix);
     matrix *= families.weight[block];
+  }
+
+  template <int dim>
+  dealii::Tensor<4, dim>
+  CorrespondenceTerm<dim>::particle_tangent(
+    const unsigned int            particle,
+    const dealii::Tensor<2, dim> &H) const
+  {
+    const auto &law = *materials[families.material[particle]];
+    return extrapolated.empty()
+             ? law.tangent(H)
+             : Materials::tangent_with_stress(law, H, extrapolated[particle]);
+  }
+
+  template <int dim>
+  void
+  CorrespondenceTerm<dim>::extrapolate_stress(const Vector &displacement,
+                                              const Vector &step)
+  {
+    extrapolated.clear();
+    if (is_linear())
+      return;
+    std::vector<dealii::Tensor<1, dim>> eta(largest_family);
+    for (unsigned int p = 0; p < families.n_particles(); ++p)
+      {
+        const auto one = family(p);
+        relative_displacements(p, displacement.begin(), eta.data());
+        const auto H = displacement_gradient(one, eta.data());
+        relative_displacements(p, step.begin(), eta.data());
+        extrapolated.push_back(Materials::extrapolated_stress(
+          *materials[families.material[p]],
+          H,
+          displacement_gradient(one, eta.data())));
+      }
+  }
+
+  template <int dim>
+  void
+  CorrespondenceTerm<dim>::forget_stress()
+  {
+    extrapolated.clear();
   }
 
   template <int dim>

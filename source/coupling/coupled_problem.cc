@@ -322,6 +322,27 @@ namespace Perimorph::Coupling
   }
 
   template <int dim>
+  void
+  CoupledProblem<dim>::extrapolate_stress(const Vector &displacement,
+                                          const Vector &step) const
+  {
+    Base::collectively(mesh.communicator(), [&]() {
+      for (const auto &term : contributions)
+        term->extrapolate_stress(displacement, step);
+      all_cells->extrapolate_stress(displacement, step);
+    });
+  }
+
+  template <int dim>
+  void
+  CoupledProblem<dim>::forget_stress() const
+  {
+    for (const auto &term : contributions)
+      term->forget_stress();
+    all_cells->forget_stress();
+  }
+
+  template <int dim>
   double
   CoupledProblem<dim>::strain_energy(const Vector &displacement) const
   {

@@ -64,8 +64,8 @@ namespace Perimorph::Fem
                        const std::string         &entry,
                        const bool                 alone)
   {
-    const std::string used_by = "parameter 'Boundary conditions / " + entry +
-                                "'";
+    const std::string used_by =
+      "parameter 'Boundary conditions / " + entry + "'";
     const auto nodes = mesh.boundary_nodes(motion.boundary, used_by);
     for (const unsigned int node : nodes)
       {
@@ -140,7 +140,8 @@ namespace Perimorph::Fem
         double square = 0.;
         for (const auto &[node, area] : areas)
           square +=
-            area * (generator * (mesh.nodal().nodes[node] - center)).norm_square();
+            area *
+            (generator * (mesh.nodal().nodes[node] - center)).norm_square();
         for (const auto &[node, area] : areas)
           {
             const auto velocity =

@@ -1,4 +1,5 @@
 #include <perimorph/fem/elastic_cells.h>
+#include <perimorph/materials/extrapolated_stress.h>
 
 namespace Perimorph::Fem
 {
@@ -122,13 +123,13 @@ namespace Perimorph::Fem
                                          const Vector &direction,
                                          Vector       &product) const
   {
-    for (const Cell &cell : cells)
+    for (unsigned int c = 0; c < cells.size(); ++c)
       {
-        const auto geometry = this->geometry(cell);
+        const Cell &cell     = cells[c];
+        const auto  geometry = this->geometry(cell);
         for (unsigned int q = 0; q < n_nodes; ++q)
           {
-            const auto A = materials[cell.material]->tangent(
-              gradient(cell, geometry, q, displacement.begin()));
+            const auto A  = point_tangent(c, geometry, q, displacement.begin());
             const auto dP = geometry.jxw[q] * cell.weights[q] *
                             dealii::double_contract<2, 0, 3, 1>(
                               A,
@@ -168,8 +169,7 @@ namespace Perimorph::Fem
     for (unsigned int q = 0; q < n_nodes; ++q)
       {
         const auto A = geometry.jxw[q] * cell.weights[q] *
-                       materials[cell.material]->tangent(
-                         gradient(cell, geometry, q, displacement.begin()));
+                       point_tangent(block, geometry, q, displacement.begin());
         for (unsigned int w = 0; w < n_nodes; ++w)
           {
             // A contracted with one gradient serves all rows.
@@ -189,6 +189,49 @@ namespace Perimorph::Fem
                   }
           }
       }
+  }
+
+  template <int dim>
+  dealii::Tensor<4, dim>
+  ElasticCells<dim>::point_tangent(const unsigned int             cell,
+                                   const Mesh::CellGeometry<dim> &geometry,
+                                   const unsigned int             q,
+                                   const double *displacement) const
+  {
+    const auto &law = *materials[cells[cell].material];
+    const auto  H   = gradient(cells[cell], geometry, q, displacement);
+    return extrapolated.empty()
+             ? law.tangent(H)
+             : Materials::tangent_with_stress(law,
+                                              H,
+                                              extrapolated[n_nodes * cell + q]);
+  }
+
+  template <int dim>
+  void
+  ElasticCells<dim>::extrapolate_stress(const Vector &displacement,
+                                        const Vector &step)
+  {
+    extrapolated.clear();
+    if (is_linear())
+      return;
+    extrapolated.reserve(n_nodes * cells.size());
+    for (const Cell &cell : cells)
+      {
+        const auto geometry = this->geometry(cell);
+        for (unsigned int q = 0; q < n_nodes; ++q)
+          extrapolated.push_back(Materials::extrapolated_stress(
+            *materials[cell.material],
+            gradient(cell, geometry, q, displacement.begin()),
+            gradient(cell, geometry, q, step.begin())));
+      }
+  }
+
+  template <int dim>
+  void
+  ElasticCells<dim>::forget_stress()
+  {
+    extrapolated.clear();
   }
 
   template <int dim>

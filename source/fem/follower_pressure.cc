@@ -45,8 +45,8 @@ namespace Perimorph::Fem
       static constexpr unsigned int n_nodes  = 1u << (dim - 1);
       static constexpr unsigned int n_points = dim == 2 ? 3 : 9;
 
-      std::array<double, n_points>                           weight;
-      std::array<std::array<double, n_nodes>, n_points>      shape;
+      std::array<double, n_points>                      weight;
+      std::array<std::array<double, n_nodes>, n_points> shape;
       std::array<std::array<dealii::Tensor<1, dim - 1>, n_nodes>, n_points>
         gradient;
 
@@ -124,9 +124,9 @@ namespace Perimorph::Fem
                                       nodal.nodes[boundary_face.nodes[v]]);
                                   }));
             face.side =
-              normal * (middle - nodal.cell_centroid[boundary_face.cell]) > 0. ?
-                1. :
-                -1.;
+              normal * (middle - nodal.cell_centroid[boundary_face.cell]) > 0.
+                ? 1.
+                : -1.;
             faces.push_back(face);
           }
       }
@@ -180,8 +180,8 @@ namespace Perimorph::Fem
           for (unsigned int v = 0; v < n_nodes; ++v)
             reference +=
               quadrature.shape[q][v] * partition.position(face.nodes[v]);
-          const auto normal = area_vector<dim>(
-            quadrature.tangents(q, [&](const unsigned int v) {
+          const auto normal =
+            area_vector<dim>(quadrature.tangents(q, [&](const unsigned int v) {
               return dealii::Tensor<1, dim>(
                 partition.position(face.nodes[v]) +
                 this->value_at(displacement.begin(), face.nodes[v]));

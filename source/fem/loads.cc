@@ -71,9 +71,9 @@ namespace Perimorph::Fem
 
     for (const auto &load : conditions.surface_loads)
       errors.collect([&]() {
-        const std::string entry = load.follows  ? "follower pressure" :
-                                  load.pressure ? "pressure" :
-                                                  "traction";
+        const std::string entry = load.follows    ? "follower pressure"
+                                  : load.pressure ? "pressure"
+                                                  : "traction";
         std::vector<dealii::Point<dim>> points;
         for (const unsigned int f :
              mesh.boundary(load.boundary,

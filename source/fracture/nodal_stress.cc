@@ -1,8 +1,11 @@
+#include <perimorph/base/exceptions.h>
 #include <perimorph/fracture/nodal_stress.h>
+#include <perimorph/materials/stress_measures.h>
 #include <perimorph/mesh/cell_geometry.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace Perimorph::Fracture
@@ -28,14 +31,18 @@ namespace Perimorph::Fracture
     {
       sum.in_plane += factor * stress.in_plane;
       sum.out_of_plane += factor * stress.out_of_plane;
+      sum.first_piola_kirchhoff += factor * stress.first_piola_kirchhoff;
+      sum.kirchhoff += factor * stress.kirchhoff;
+      sum.logarithmic_strain += factor * stress.logarithmic_strain;
     }
 
     template <int dim>
     void
     divide(Stress<dim> &sum, const double divisor)
     {
-      sum.in_plane /= divisor;
-      sum.out_of_plane /= divisor;
+      Stress<dim> quotient;
+      add(quotient, 1. / divisor, sum);
+      sum = quotient;
     }
   } // namespace
 
@@ -78,10 +85,40 @@ namespace Perimorph::Fracture
                      const dealii::Tensor<2, dim>   &gradient)
   {
     Stress<dim> stress;
-    stress.in_plane =
-      dealii::symmetrize(material.first_piola_kirchhoff(gradient));
+    if (material.is_linear())
+      {
+        stress.in_plane =
+          dealii::symmetrize(material.first_piola_kirchhoff(gradient));
+        if (dim == 2)
+          stress.out_of_plane = material.out_of_plane_stress(gradient);
+        return stress;
+      }
+    Materials::StressMeasures measures;
+    try
+      {
+        measures = Materials::stress_measures(material, gradient);
+      }
+    catch (const Base::InadmissibleState &)
+      {
+        // The fit around a strongly distorted place may turn inside out where
+        // the elements do not: there is no stress to report.
+        const double none = std::numeric_limits<double>::quiet_NaN();
+        for (unsigned int a = 0; a < 3; ++a)
+          for (unsigned int b = 0; b < 3; ++b)
+            {
+              measures.first_piola_kirchhoff[a][b] = none;
+              measures.cauchy[a][b] = measures.kirchhoff[a][b] = none;
+              measures.strain[a][b]                            = none;
+            }
+      }
+    for (int i = 0; i < dim; ++i)
+      for (int j = i; j < dim; ++j)
+        stress.in_plane[i][j] = measures.cauchy[i][j];
     if (dim == 2)
-      stress.out_of_plane = material.out_of_plane_stress(gradient);
+      stress.out_of_plane = measures.cauchy[2][2];
+    stress.first_piola_kirchhoff = measures.first_piola_kirchhoff;
+    stress.kirchhoff             = measures.kirchhoff;
+    stress.logarithmic_strain    = measures.strain;
     return stress;
   }
 

@@ -15,7 +15,7 @@ namespace Perimorph::Solvers
                                    const Report &report)
   {
     const double start_time = time;
-    Vector       load_rate(rhs), support_rate(rhs), rate(rhs), tangent_rate(rhs);
+    Vector load_rate(rhs), support_rate(rhs), rate(rhs), tangent_rate(rhs);
     // Loads and supports are smooth in time; a fraction of a step is enough.
     const double time_difference = 1e-3 * first_step;
 
@@ -41,15 +41,14 @@ namespace Perimorph::Solvers
       constraints.condense(load_rate);
       evaluate_loads(time);
     };
-    const auto solve_with = [&](Vector &solution,
-                                Vector &right_hand_side,
-                                Vector &prescribed) {
-      const auto timer      = timing.scope("linear_solver");
-      const auto iterations = linear_solver->solve(solution, right_hand_side);
-      constraints.distribute(solution);
-      solution += prescribed;
-      return iterations;
-    };
+    const auto solve_with =
+      [&](Vector &solution, Vector &right_hand_side, Vector &prescribed) {
+        const auto timer      = timing.scope("linear_solver");
+        const auto iterations = linear_solver->solve(solution, right_hand_side);
+        constraints.distribute(solution);
+        solution += prescribed;
+        return iterations;
+      };
 
     bool                             predicted = false;
     double                           time_step = 0.;
@@ -71,7 +70,7 @@ namespace Perimorph::Solvers
       auto iterations = solve_with(rate, load_rate, support_rate);
       if (!predicted)
         {
-          tangent_rate = rate;
+          tangent_rate       = rate;
           const double speed = rate.l2_norm();
           if (arc.radius == 0.)
             arc.radius = first_step * speed;
@@ -84,8 +83,7 @@ namespace Perimorph::Solvers
       else
         {
           iterations += solve_with(correction, rhs, particular);
-          time_step =
-            -(tangent_rate * correction) / (tangent_rate * rate);
+          time_step = -(tangent_rate * correction) / (tangent_rate * rate);
         }
       correction.add(time_step, rate);
       displacement.zero_out_ghost_values();
@@ -119,8 +117,8 @@ namespace Perimorph::Solvers
     arc.direction = displacement;
     arc.direction -= start;
     // Five iterations are a good pace.
-    arc.radius *= std::clamp(
-      std::sqrt(5. / std::max(1u, record.n_iterations())), 0.5, 1.5);
+    arc.radius *=
+      std::clamp(std::sqrt(5. / std::max(1u, record.n_iterations())), 0.5, 1.5);
     return record;
   }
 

@@ -16,12 +16,11 @@ namespace Perimorph::Solvers
     dealii::Tensor<2, dim>
     finite_rotation(const dealii::Tensor<2, dim> &spin)
     {
-      const double           angle  = spin.norm() / std::sqrt(2.);
-      const double           first  = angle > 0. ? std::sin(angle) / angle : 1.;
-      const double           half   = angle > 0. ? std::sin(angle / 2.) : 0.;
-      const double           second = angle > 0. ? 2. * half * half /
-                                           (angle * angle) :
-                                         0.5;
+      const double angle = spin.norm() / std::sqrt(2.);
+      const double first = angle > 0. ? std::sin(angle) / angle : 1.;
+      const double half  = angle > 0. ? std::sin(angle / 2.) : 0.;
+      const double second =
+        angle > 0. ? 2. * half * half / (angle * angle) : 0.5;
       dealii::Tensor<2, dim> rotation = first * spin + second * (spin * spin);
       for (int d = 0; d < dim; ++d)
         rotation[d][d] += 1.;
@@ -91,8 +90,8 @@ namespace Perimorph::Solvers
     // Gauss-Jordan elimination: each row keeps one dependent unknown that no
     // other row has.
     std::vector<std::map<unsigned int, double>> free(means.size());
-    Eigen::MatrixXd of_means = Eigen::MatrixXd::Identity(means.size(),
-                                                         means.size());
+    Eigen::MatrixXd                             of_means =
+      Eigen::MatrixXd::Identity(means.size(), means.size());
     for (unsigned int r = 0; r < means.size(); ++r)
       for (const auto &entry : means[r].factors)
         if (supports.entries().count(entry.first) == 0)
@@ -108,8 +107,7 @@ namespace Perimorph::Solvers
           if (best == free[r].end() ||
               std::abs(entry->second) > std::abs(best->second) * (1. + 1e-8))
             best = entry;
-        if (best == free[r].end() ||
-            std::abs(best->second) < 1e-10 * original)
+        if (best == free[r].end() || std::abs(best->second) < 1e-10 * original)
           throw Base::InputError(Base::InputMessage{
             "parameter 'Boundary conditions / mean displacement'",
             "conditions that follow from each other or contradict",
@@ -148,8 +146,8 @@ namespace Perimorph::Solvers
   dealii::Tensor<1, dim>
   Constraints<dim>::arm(const Plate &plate, const unsigned int node) const
   {
-    return plate.rotation * (partition.position(partition.local(node)) -
-                             plate.support->center);
+    return plate.rotation *
+           (partition.position(partition.local(node)) - plate.support->center);
   }
 
   template <int dim>
@@ -164,11 +162,10 @@ namespace Perimorph::Solvers
         {
           const unsigned int component = dofs[k] % dim;
           const unsigned int motion    = motions[m];
-          result(k, m) =
-            motion < dim ?
-              (motion == component ? 1. : 0.) :
-              (Fem::rotation_generators<dim>()[motion - dim] *
-               arm(plate, dofs[k] / dim))[component];
+          result(k, m)                 = motion < dim
+                                           ? (motion == component ? 1. : 0.)
+                                           : (Fem::rotation_generators<dim>()[motion - dim] *
+                              arm(plate, dofs[k] / dim))[component];
         }
     return result;
   }
@@ -332,8 +329,8 @@ namespace Perimorph::Solvers
             current[d] = d < dim ? plate.translation[d] : plate.angle;
         for (int d = 0; d < dim; ++d)
           if (support.translation[d])
-            change[d] = support.translation[d]->value(support.center, time) -
-                        current[d];
+            change[d] =
+              support.translation[d]->value(support.center, time) - current[d];
         // In 3D only a rotation of zero is allowed: nothing to do.
         if (dim == 2 && support.rotation)
           change[dim] =

@@ -54,8 +54,7 @@ namespace Perimorph::Solvers
     if (solver_choice.matrix_free && constraints.couple_unknowns())
       {
         solver_choice.matrix_free = false;
-        solver_choice.reason +=
-          "; assembled because supports couple unknowns";
+        solver_choice.reason += "; assembled because supports couple unknowns";
       }
     const auto &partition = problem.partition();
     for (auto *vector : {&internal,
@@ -210,8 +209,7 @@ namespace Perimorph::Solvers
     // The out-of-balance of the start counts as a force of the problem: with
     // prescribed displacements alone nothing else may remain at the end. Those
     // of later iterations do not: they can be far too large.
-    for (const double force :
-         {first ? norms.residual : 0., external.l2_norm()})
+    for (const double force : {first ? norms.residual : 0., external.l2_norm()})
       if (std::isfinite(force))
         largest_force = std::max(largest_force, force);
     norms.scale = std::max(largest_force, reactions);
@@ -236,10 +234,11 @@ namespace Perimorph::Solvers
         record.converged = false;
         record.reason    = error.what();
       }
+    problem.forget_stress();
     if (record.converged)
       {
-        largest_force = std::max(largest_force,
-                                 constraints.support_norm(out_of_balance));
+        largest_force =
+          std::max(largest_force, constraints.support_norm(out_of_balance));
         return record;
       }
     displacement.zero_out_ghost_values();
@@ -254,13 +253,21 @@ namespace Perimorph::Solvers
                           Vector       &displacement,
                           const Report &report)
   {
-    Vector                            base;
-    typename Constraints<dim>::State  base_state;
-    NewtonActions                     actions;
+    Vector                           base;
+    typename Constraints<dim>::State base_state;
+    NewtonActions                    actions;
     actions.evaluate = [&](const unsigned int iteration) {
       return evaluate(time, displacement, iteration == 0);
     };
-    actions.solve = [&]() {
+    double step_length = 0.; // of the step that led here
+    actions.solve      = [&]() {
+      if (step_length > 0. && !problem.is_linear())
+        {
+          correction *= step_length;
+          correction.update_ghost_values();
+          base.update_ghost_values();
+          problem.extrapolate_stress(base, correction);
+        }
       prepare_linear_solver(displacement);
       const auto timer      = timing.scope("linear_solver");
       const auto iterations = linear_solver->solve(correction, rhs);
@@ -279,6 +286,7 @@ namespace Perimorph::Solvers
           constraints.restore(base_state);
         }
       constraints.move(step, correction, displacement);
+      step_length = step;
     };
     actions.slope  = [&]() { return rhs * correction; };
     actions.report = report;

@@ -10,12 +10,11 @@ namespace Perimorph::Solvers
   {}
 
   double
-  LoadStepping::advance(
-    const double                               from,
-    const double                               to,
-    const std::function<bool(double)>         &attempt,
-    const std::function<void(double, double)> &on_cut,
-    const std::function<void(double)>         &on_intermediate)
+  LoadStepping::advance(const double                               from,
+                        const double                               to,
+                        const std::function<bool(double)>         &attempt,
+                        const std::function<void(double, double)> &on_cut,
+                        const std::function<void(double)> &on_intermediate)
   {
     double       time   = from;
     unsigned int n_cuts = 0;

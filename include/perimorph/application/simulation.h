@@ -140,6 +140,6 @@ namespace Perimorph::Application
     std::unique_ptr<Output::Results>            result;
     std::unique_ptr<Output::FieldOutput<dim>>   fields;
     std::vector<std::string>                    files;
-    bool point_supports_checked = false;
+    bool                                        point_supports_checked = false;
   };
 } // namespace Perimorph::Application

@@ -49,8 +49,8 @@ namespace Perimorph::Application
 
     std::string constants;
 
-    std::string  linear_solver = "automatic", tangent = "automatic",
-                line_search = "inadmissible";
+    std::string linear_solver = "automatic", tangent = "automatic",
+                line_search       = "inadmissible";
     double       linear_tolerance = 1e-12, newton_tolerance = 1e-9;
     unsigned int maximum_newton_iterations = 20;
 

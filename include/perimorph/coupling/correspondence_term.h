@@ -44,7 +44,17 @@ namespace Perimorph::Coupling
                   const Vector               &displacement,
                   dealii::FullMatrix<double> &matrix) const override;
 
+    void
+    extrapolate_stress(const Vector &displacement, const Vector &step) override;
+    void
+    forget_stress() override;
+
   private:
+    /// Tangent of the law of a particle at its displacement gradient.
+    dealii::Tensor<4, dim>
+    particle_tangent(unsigned int                  particle,
+                     const dealii::Tensor<2, dim> &H) const;
+
     Peridynamics::Family<dim>
     family(unsigned int particle) const;
 
@@ -64,6 +74,8 @@ namespace Perimorph::Coupling
     std::vector<dealii::Point<dim>>     position; ///< one per particle
     const MaterialList                 &materials;
     unsigned int                        largest_family = 0;
+    /// Per particle; empty: none.
+    std::vector<dealii::Tensor<2, dim>> extrapolated;
   };
 
   /// Nodes a rank needs for its families.

@@ -102,6 +102,14 @@ namespace Perimorph::Coupling
     void
     internal_forces(const Vector &displacement, Vector &forces) const;
 
+    /// Contribution::extrapolate_stress() of all terms; part of the solution
+    /// procedure, not of the problem.
+    /// @throws Base::InadmissibleState  on all ranks
+    void
+    extrapolate_stress(const Vector &displacement, const Vector &step) const;
+    void
+    forget_stress() const;
+
     /// Strain energy of all ranks.
     double
     strain_energy(const Vector &displacement) const;

@@ -58,6 +58,16 @@ namespace Perimorph::Fem
                   const Vector               &displacement,
                   dealii::FullMatrix<double> &matrix) const = 0;
 
+    /// Until forget_stress() the tangent has the stress extrapolated linearly
+    /// from a displacement along a step (Materials::tangent_with_stress), where
+    /// a term has stresses.
+    virtual void
+    extrapolate_stress(const Vector &, const Vector &)
+    {}
+    virtual void
+    forget_stress()
+    {}
+
     /// Weight of the equations of each local node, for force blending; empty
     /// means one everywhere (then the term is the gradient of its energy).
     void

@@ -49,6 +49,11 @@ namespace Perimorph::Fem
                   const Vector               &displacement,
                   dealii::FullMatrix<double> &matrix) const override;
 
+    void
+    extrapolate_stress(const Vector &displacement, const Vector &step) override;
+    void
+    forget_stress() override;
+
   private:
     static constexpr unsigned int n_nodes = 1u << dim;
 
@@ -68,9 +73,18 @@ namespace Perimorph::Fem
              unsigned int                   q,
              const double                  *vector) const;
 
+    /// Tangent of the law at a quadrature point.
+    dealii::Tensor<4, dim>
+    point_tangent(unsigned int                   cell,
+                  const Mesh::CellGeometry<dim> &geometry,
+                  unsigned int                   q,
+                  const double                  *displacement) const;
+
     const NodePartition<dim> &partition;
     const MaterialList       &materials;
     std::vector<Cell>         cells;
+    /// Per cell and quadrature point; empty: none.
+    std::vector<dealii::Tensor<2, dim>> extrapolated;
   };
 
   /// Nodes a rank needs for the elements it owns.

@@ -33,9 +33,9 @@ namespace Perimorph::Fem
   template <int dim>
   struct RigidPlate
   {
-    std::string               boundary;
-    dealii::Point<dim>        center;
-    std::vector<unsigned int> nodes;
+    std::string                                     boundary;
+    dealii::Point<dim>                              center;
+    std::vector<unsigned int>                       nodes;
     std::array<const Parameters::Expression *, dim> translation; ///< null: free
     const Parameters::Expression                   *rotation;    ///< null: free
   };

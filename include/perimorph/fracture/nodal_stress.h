@@ -15,12 +15,18 @@ namespace Perimorph::Fracture
   template <int dim>
   using MaterialList = std::vector<std::unique_ptr<Materials::Material<dim>>>;
 
-  /// Stress at a point, in the units of Young's modulus.
+  /// Stress at a point, in the units of Young's modulus: Cauchy stress at
+  /// finite strain.
   template <int dim>
   struct Stress
   {
     dealii::SymmetricTensor<2, dim> in_plane; ///< in 3D the whole tensor
     double                          out_of_plane = 0.; ///< szz of a 2D model
+
+    /// The other measures of finite strain (zero at small strain).
+    dealii::Tensor<2, 3>          first_piola_kirchhoff;
+    dealii::SymmetricTensor<2, 3> kirchhoff;
+    dealii::SymmetricTensor<2, 3> logarithmic_strain; ///< 1/2 ln(F F^T) [-]
   };
 
   /// The three principal stresses, largest first (one of them is the stress out
@@ -41,7 +47,8 @@ namespace Perimorph::Fracture
               const dealii::Point<dim> &point,
               const dealii::Point<dim> &center);
 
-  /// Stress of a displacement gradient. Small strain: the symmetric part of P.
+  /// Stress of a displacement gradient; not a number where the law has no
+  /// answer.
   template <int dim>
   Stress<dim>
   stress_of_gradient(const Materials::Material<dim> &material,

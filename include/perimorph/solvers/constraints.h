@@ -22,7 +22,8 @@ namespace Perimorph::Solvers
   class Constraints
   {
   public:
-    /// @param small_rotations  keep plates at the tangent of the reference state
+    /// @param small_rotations  keep plates at the tangent of the reference
+    /// state
     Constraints(const Fem::NodePartition<dim> &partition,
                 const Fem::Supports<dim>      &supports,
                 bool                           small_rotations);

@@ -124,8 +124,7 @@ namespace Perimorph::Solvers
     /// Newton's method whose failures of any kind end up in the record and
     /// leave displacement and constraints as they were.
     NewtonRecord
-    guarded(Vector                                &displacement,
-            const std::function<NewtonRecord()>   &solve);
+    guarded(Vector &displacement, const std::function<NewtonRecord()> &solve);
 
     const Coupling::CoupledProblem<dim>  &problem;
     const Fem::Supports<dim>             &supports;

@@ -62,19 +62,13 @@ namespace Perimorph::Solvers
       std::ostringstream     console;
       Base::Log              log(MPI_COMM_WORLD, console);
       Base::Timing           timing;
-      Equilibrium<2>         equilibrium(problem,
-                                 supports,
-                                 loads,
-                                 parameters,
-                                 log,
-                                 timing);
-      Vector                 displacement;
+      Equilibrium<2>
+        equilibrium(mesh, problem, supports, loads, parameters, log, timing);
+      Vector displacement;
       problem.partition().initialize(displacement);
       Outcome outcome;
       outcome.record =
-        equilibrium.solve(1.,
-                          displacement,
-                          [](unsigned int, double, unsigned int) {});
+        equilibrium.solve(1., displacement, [](const NewtonIteration &) {});
       displacement.update_ghost_values();
       outcome.strain_energy = problem.strain_energy(displacement);
       outcome.matrix_free   = equilibrium.choice().matrix_free;
