@@ -215,7 +215,7 @@ namespace Perimorph::Application
                       choice({"load", "arc length"}));
     prm.add_parameter("maximum cuts",
                       maximum_cuts,
-                      "How often in a row a step may be halved.",
+                      "The smallest increment is a step halved this often.",
                       Integer(0, 40));
     prm.add_parameter("maximum arc steps",
                       maximum_arc_steps,

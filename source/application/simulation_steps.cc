@@ -85,7 +85,7 @@ namespace Perimorph::Application
              << ") did not converge";
         if (parameters.load_stepping.maximum_cuts > 0 &&
             !method.equilibrium->is_linear())
-          text << ", not even after " << parameters.load_stepping.maximum_cuts
+          text << ", not even with " << parameters.load_stepping.maximum_cuts
                << " cuts";
         text << ": " << record.reason << residuals_text(record)
              << ". The last converged state is that of t = " << reached

@@ -16,8 +16,8 @@ namespace Perimorph::Solvers
                         const std::function<void(double, double)> &on_cut,
                         const std::function<void(double)> &on_intermediate)
   {
-    double       time   = from;
-    unsigned int n_cuts = 0;
+    double       time     = from;
+    const double smallest = std::ldexp(1., -int(parameters.maximum_cuts));
     while (time != to)
       {
         double target = time + fraction * (to - from);
@@ -29,14 +29,12 @@ namespace Perimorph::Solvers
           {
             time     = target;
             fraction = std::min(1., 2. * fraction);
-            n_cuts   = 0;
             if (time != to)
               on_intermediate(time);
             continue;
           }
-        if (n_cuts == parameters.maximum_cuts)
+        if (0.5 * fraction < smallest)
           break;
-        ++n_cuts;
         ++total_cuts;
         fraction *= 0.5;
         on_cut(target, time + fraction * (to - from));

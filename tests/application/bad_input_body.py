@@ -1,6 +1,6 @@
 """Bad input, second part: regions, supports, loads, quantities."""
 
-from bad_input_files import row
+from bad_input_files import INNER, row
 from case_files import (BOND_BASED, NO_SUPPORTS, QUARTER_PLATE, SOLID,
                         parameter_text, square)
 
@@ -203,6 +203,59 @@ def data(text):
 
 
 RING = {"Reference/data": "ring: data.csv"}
+LARGE = {"Material/law": "hencky", "Material/state": "plane strain"}
+FOLLOWER = "Boundary conditions/follower pressure"
+PLATE = "Boundary conditions/rigid plate"
+MEAN = "Boundary conditions/mean displacement"
+
+LARGE_DEFORMATION = [
+    row("unknown law", ["'Material / law'", "'henki'", "hencky"],
+        {"Material/law": "henki"}),
+    row("follower pressure at small strain", [
+        "'Boundary conditions / follower pressure'", "linear elastic",
+        "a law of finite strain"], {FOLLOWER: "top: 1"}),
+    row("follower pressure on an unknown boundary", [
+        "'Boundary conditions / follower pressure'", "'tpo'",
+        "did you mean 'top'"], {FOLLOWER: "tpo: 1"}, LARGE),
+    row("follower pressure on an inner boundary", [
+        "'Boundary conditions / follower pressure'", "'crack'",
+        "no face on the surface of the body"],
+        {FOLLOWER: "crack: 1", "Mesh/file": "inner.msh",
+         "Mesh/geometry parameters": None}, LARGE,
+        files={"inner.msh": INNER}),
+    row("follower pressure that is not finite", [
+        "'Boundary conditions / follower pressure'", "finite"],
+        {FOLLOWER: "top: 1/(y - y)"}, LARGE),
+    row("law that bonds do not have", [
+        "'Material / law'", "'hencky' with bond-based", "prototype microelastic"],
+        BOND_BASED, {"Material/law": "hencky"}),
+    row("wrong Poisson's ratio of the microelastic law", [
+        "'Material / Poisson's ratio'", "0.3", "1/4"],
+        {"Material/law": "prototype microelastic",
+         "Material/state": "plane strain"}),
+    row("rigid plate on a supported boundary", [
+        "'Boundary conditions / rigid plate'", "'left'",
+        "held by the symmetry of 'left'"], {PLATE: "left: x = 0"}, LARGE),
+    row("rigid plate and mean of one boundary", [
+        "'Boundary conditions / rigid plate'", "as a whole"],
+        {PLATE: "right: x = 0", MEAN: "right: y = 0"}, LARGE, NO_SUPPORTS),
+    row("unknown motion of a plate", [
+        "'Boundary conditions / rigid plate'", "'rotatoin'", "rotation"],
+        {PLATE: "right: rotatoin = 0"}, LARGE),
+    row("mean of what is held already", [
+        "'Boundary conditions / mean displacement'",
+        "all held by other supports"], {MEAN: "left: x = 0"}, LARGE),
+    row("mean of an unknown boundary", [
+        "'Boundary conditions / mean displacement'", "'rigth'",
+        "did you mean 'right'"], {MEAN: "rigth: y = 0"}),
+    row("rotation of a plate in 3D", [
+        "'Boundary conditions / rigid plate'", "rotation = 1",
+        "rotation = 0 in 3D"], SOLID, {PLATE: "right: rotation = 1"}),
+    row("unknown control", ["'Load steps / control'", "'arc'"],
+        {"Load steps/control": "arc"}),
+]
+CONDITIONS += LARGE_DEFORMATION
+
 PLACE = ["reference file", "data.csv"]
 
 QUANTITIES = [

@@ -6,7 +6,7 @@ namespace Perimorph::Solvers
 {
   struct LoadSteppingParameters
   {
-    /// How often in a row a step may be halved before the run gives up.
+    /// The smallest increment is a step halved this often.
     unsigned int maximum_cuts = 10;
   };
 
