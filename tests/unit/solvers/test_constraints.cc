@@ -72,6 +72,7 @@ namespace Perimorph::Solvers
                "",
                std::vector<double>(dim, 0.5)}};
             region.horizon_ratio = 1.5;
+            region.core_size     = {0.5, true, false};
             problem = std::make_unique<Coupling::CoupledProblem<dim>>(
               mesh,
               make_region_map(mesh, region),
@@ -167,8 +168,8 @@ namespace Perimorph::Solvers
     block.conditions.displacement.push_back({"x-", {}, components<dim>("0")});
     block.conditions.rigid_plates.push_back({"x+", {}, {}});
     Fem::SurfaceLoad<dim> load{"x+", {}, {}};
-    load.traction[1] = expression("0.8*t");
-    load.traction[0] = expression("-0.5*t");
+    load.traction[1] = expression("0.5*t");
+    load.traction[0] = expression("-0.3*t");
     block.conditions.surface_loads.push_back(load);
     const auto record = block.solve(1.);
     ASSERT_TRUE(record.converged) << record.reason;
