@@ -7,6 +7,7 @@ beside them in each test.
 """
 
 import contextlib
+import csv
 import io
 import math
 import os
@@ -40,8 +41,26 @@ def write_parameters(path, entries):
     return path
 
 
+def read_table(path):
+    """Columns of a .csv file by name; lines that start with # are comments."""
+    with open(path) as file:
+        lines = [line for line in file if line.strip() and line[0] != "#"]
+    rows = list(csv.reader(lines))
+    return {
+        name: [float(row[k]) for row in rows[1:]]
+        for k, name in enumerate(rows[0])
+    }
+
+
 class Solution(dict):
     """Quantities and checks of a run by name; nan when it has none."""
+
+    folder = None
+
+    def table(self, name):
+        """Columns of a .csv file of the run; none if the run failed."""
+        path = os.path.join(self.folder or "", name + ".csv")
+        return read_table(path) if os.path.exists(path) else {}
 
     def __missing__(self, name):
         return math.nan
@@ -50,8 +69,8 @@ class Solution(dict):
 class Study:
     """Runs the program and judges what it gives, row by row."""
 
-    def __init__(self, description):
-        self.arguments = parse_arguments(description)
+    def __init__(self, description, **groups):
+        self.arguments = parse_arguments(description, **groups)
         self.runner = Runner(self.arguments)
         self.failures = Failures()
 
@@ -73,6 +92,7 @@ class Study:
         started = time.time()
         outcome = self.runner.run_case(file, words)
         solution = Solution(seconds=time.time() - started)
+        solution.folder = outcome.folder
         if self.arguments.show:
             print(indented(outcome.text, 1000))
         if outcome.code != 0:
