@@ -90,8 +90,8 @@ namespace Perimorph::Fem
   {
     constexpr int          dim = TypeParam::value;
     const PressedBody<dim> body("3*t");
-    const auto             u = body.field(wave<dim>);
-    const auto             f = body.forces(u);
+    const auto             u       = body.field(wave<dim>);
+    const auto             f       = body.forces(u);
     double                 largest = f.linfty_norm();
     for (int d = 0; d < dim; ++d)
       {
@@ -105,10 +105,9 @@ namespace Perimorph::Fem
     for (unsigned int n = 0; n < body.partition->n_owned(); ++n)
       {
         const auto x = body.partition->position(n);
-        moment += (x[0] + u.local_element(dim * n)) *
-                    f.local_element(dim * n + 1) -
-                  (x[1] + u.local_element(dim * n + 1)) *
-                    f.local_element(dim * n);
+        moment +=
+          (x[0] + u.local_element(dim * n)) * f.local_element(dim * n + 1) -
+          (x[1] + u.local_element(dim * n + 1)) * f.local_element(dim * n);
       }
     EXPECT_LT(std::abs(dealii::Utilities::MPI::sum(moment, MPI_COMM_WORLD)),
               1e-12 * largest);

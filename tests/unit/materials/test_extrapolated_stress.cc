@@ -44,10 +44,9 @@ namespace Perimorph::Materials
                     1e-13);
           // The extrapolation is the first-order change of S.
           const double small = 1e-5;
-          const auto   change =
-            (second_piola_kirchhoff(*law, H + small * step) -
-             second_piola_kirchhoff(*law, H - small * step)) /
-            (2. * small);
+          const auto change  = (second_piola_kirchhoff(*law, H + small * step) -
+                               second_piola_kirchhoff(*law, H - small * step)) /
+                              (2. * small);
           EXPECT_LT((extrapolated_stress(*law, H, step) - S - change).norm(),
                     1e-7 * change.norm());
         }

@@ -47,8 +47,8 @@ namespace Perimorph::Solvers
                MPI_COMM_WORLD)
         , log(MPI_COMM_WORLD, console)
       {
-        const auto state = dim == 2 ? Materials::PlaneState::plane_strain :
-                                      Materials::PlaneState::three_dimensional;
+        const auto state = dim == 2 ? Materials::PlaneState::plane_strain
+                                    : Materials::PlaneState::three_dimensional;
         materials.laws.push_back(
           Materials::make_material<dim>(law, 10., 0.3, state));
         materials.bond_constants.push_back({10., state});
@@ -67,10 +67,9 @@ namespace Perimorph::Solvers
                                                       conditions,
                                                       std::vector<double>{1.});
             Mesh::RegionParameters region;
-            region.features = {
-              {Parameters::FeatureKind::point,
-               "",
-               std::vector<double>(dim, 0.5)}};
+            region.features      = {{Parameters::FeatureKind::point,
+                                     "",
+                                     std::vector<double>(dim, 0.5)}};
             region.horizon_ratio = 1.5;
             region.core_size     = {0.5, true, false};
             problem = std::make_unique<Coupling::CoupledProblem<dim>>(
@@ -82,8 +81,13 @@ namespace Perimorph::Solvers
               supports->coupled_nodes());
             EquilibriumParameters parameters;
             parameters.newton.tolerance = 1e-12;
-            equilibrium                 = std::make_unique<Equilibrium<dim>>(
-              mesh, *problem, *supports, *loads, parameters, log, timing);
+            equilibrium = std::make_unique<Equilibrium<dim>>(mesh,
+                                                             *problem,
+                                                             *supports,
+                                                             *loads,
+                                                             parameters,
+                                                             log,
+                                                             timing);
             problem->partition().initialize(displacement);
           }
         iterations.clear();
@@ -102,9 +106,8 @@ namespace Perimorph::Solvers
       {
         dealii::Tensor<1, dim> value;
         for (int d = 0; d < dim; ++d)
-          value[d] =
-            displacement
-              .local_element(dim * problem->partition().local(node) + d);
+          value[d] = displacement.local_element(
+            dim * problem->partition().local(node) + d);
         return value;
       }
 
@@ -119,9 +122,9 @@ namespace Perimorph::Solvers
             {
               const dealii::Tensor<1, dim> before =
                 mesh.nodal().nodes[a] - mesh.nodal().nodes[b];
-              worst = std::max(worst,
-                               std::abs((before + at(a) - at(b)).norm() -
-                                        before.norm()));
+              worst = std::max(
+                worst,
+                std::abs((before + at(a) - at(b)).norm() - before.norm()));
             }
         return worst;
       }
@@ -207,10 +210,9 @@ namespace Perimorph::Solvers
           {
             bool corner = true;
             for (int d = 1; d < dim; ++d)
-              corner = corner && std::abs(std::abs(
-                                            block.mesh.nodal().nodes[n][d] -
-                                            0.5) -
-                                          0.5) < 1e-12;
+              corner = corner &&
+                       std::abs(std::abs(block.mesh.nodal().nodes[n][d] - 0.5) -
+                                0.5) < 1e-12;
             if (corner)
               {
                 mean += block.at(n);
@@ -253,8 +255,7 @@ namespace Perimorph::Solvers
     Block<2> block("hencky");
     block.conditions.displacement.push_back({"x-", {}, components<2>("0")});
     Fem::ComponentExpressions<2> held = components<2>("0");
-    block.conditions.rigid_plates.push_back(
-      {"x+", held, expression("0.6*t")});
+    block.conditions.rigid_plates.push_back({"x+", held, expression("0.6*t")});
     for (const double time : {0.25, 0.5, 0.75, 1.})
       ASSERT_TRUE(block.solve(time).converged);
     const auto nodes = block.mesh.boundary_nodes("x+", "test");
@@ -298,7 +299,8 @@ namespace Perimorph::Solvers
     // A bar without lateral contraction: nominal stress E ln(stretch) /
     // stretch, at most E / e at the stretch e.
     const Mesh::DistributedMesh<2> mesh(
-      Testing::as_gmsh_mesh(Testing::unit_mesh<2>(3, 0.2)), MPI_COMM_WORLD);
+      Testing::as_gmsh_mesh(Testing::unit_mesh<2>(3, 0.2)),
+      MPI_COMM_WORLD);
     Coupling::BodyMaterials<2> materials;
     const auto                 state = Materials::PlaneState::plane_strain;
     materials.laws.push_back(
@@ -310,7 +312,7 @@ namespace Perimorph::Solvers
                                               make_region_map(mesh, region),
                                               materials,
                                               Coupling::CouplingParameters());
-    Fem::BoundaryConditions<2> conditions;
+    Fem::BoundaryConditions<2>        conditions;
     conditions.symmetry      = {"x-", "y-"};
     Fem::SurfaceLoad<2> load = {"x+", {}, {}};
     load.traction[0]         = expression("0.5*t");
@@ -321,8 +323,8 @@ namespace Perimorph::Solvers
     Base::Log              log(MPI_COMM_WORLD, console);
     Base::Timing           timing;
     EquilibriumParameters  parameters;
-    Equilibrium<2>         equilibrium(
-      mesh, problem, supports, loads, parameters, log, timing);
+    Equilibrium<2>
+           equilibrium(mesh, problem, supports, loads, parameters, log, timing);
     Vector displacement;
     problem.partition().initialize(displacement);
     double    time = 0., peak = 0., worst = 0.;
