@@ -137,6 +137,12 @@ namespace Perimorph::Application
                       "gamma [-] of the zero-energy stabilisation; 1 fits all, "
                       "the entry exists for studies.",
                       Double(0.));
+    prm.add_parameter(
+      "stabilization scale",
+      stabilization_scale,
+      "bending: the energy of bending fields is exact for gamma "
+      "= 1. shear modulus: gamma mu tr(K^-1) / dim.",
+      choice(Coupling::stabilization_scale_names()));
     prm.leave_subsection();
 
     prm.enter_subsection("Boundary conditions");

@@ -389,7 +389,7 @@ namespace Perimorph::Application
       }
     if (parameters.has_reference_displacement)
       {
-        const auto exact = reference_displacement();
+        const auto exact = reference_displacement(state.time);
         auto       error = state.displacement;
         for (unsigned int n = 0; n < error.size(); ++n)
           error[n] -= exact[n];
@@ -483,7 +483,7 @@ namespace Perimorph::Application
 
   template <int dim>
   std::vector<dealii::Tensor<1, dim>>
-  PostProcessing<dim>::reference_displacement() const
+  PostProcessing<dim>::reference_displacement(const double time) const
   {
     std::vector<dealii::Tensor<1, dim>> exact;
     if (!parameters.has_reference_displacement)
@@ -494,8 +494,7 @@ namespace Perimorph::Application
         for (int d = 0; d < dim; ++d)
           if (parameters.reference_displacement[d])
             exact.back()[d] =
-              parameters.reference_displacement[d]->value(node,
-                                                          parameters.end_time);
+              parameters.reference_displacement[d]->value(node, time);
       }
     return exact;
   }

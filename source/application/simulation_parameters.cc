@@ -213,6 +213,9 @@ namespace Perimorph::Application
     coupling.influence =
       Peridynamics::influence_function_from_name(texts.influence_function);
     coupling.gamma = texts.stabilization;
+    coupling.scale = from_name<Coupling::StabilizationScale>(
+      texts.stabilization_scale,
+      Coupling::stabilization_scale_names());
   }
 
   template <int dim>

@@ -85,6 +85,7 @@ namespace Perimorph::Application
       complete(method.equilibrium->internal_forces(), partition);
     state.external_force =
       complete(method.equilibrium->external_forces(), partition);
+    state.time          = method.time;
     state.strain_energy = method.problem->strain_energy(displacement);
     return state;
   }

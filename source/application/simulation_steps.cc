@@ -61,6 +61,7 @@ namespace Perimorph::Application
           if (record.converged)
             {
               ++step.n_increments;
+              method.time            = target;
               step.relative_residual = record.residuals.back();
             }
           return record.converged;
@@ -173,6 +174,7 @@ namespace Perimorph::Application
         time                   = target;
         peak                   = std::max(peak, time);
         step.time              = time;
+        method.time            = time;
         step.n_increments      = 1;
         step.relative_residual = record.residuals.back();
         on_step(step);
@@ -340,8 +342,18 @@ namespace Perimorph::Application
     point_supports_checked = true;
     for (const auto &[node, label] : supports->point_supports())
       {
-        const auto reaction = post_processing->outer_force(node, state) -
-                              state.external_force[node];
+        // Only what the point itself holds: the node may be on a boundary that
+        // is held too.
+        dealii::Tensor<1, dim> reaction =
+          post_processing->outer_force(node, state) -
+          state.external_force[node];
+        for (int d = 0; d < dim; ++d)
+          {
+            const auto entry = supports->entries().find(dim * node + d);
+            if (entry == supports->entries().end() ||
+                entry->second.label != label)
+              reaction[d] = 0.;
+          }
         if (reaction.norm() < 1e-6 * largest_force)
           continue;
         std::ostringstream text;

@@ -3,8 +3,12 @@
 #include <perimorph/coupling/consistent_families.h>
 #include <perimorph/mesh/cell_geometry.h>
 
+#include <Eigen/Dense>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace Perimorph::Coupling
@@ -96,6 +100,114 @@ namespace Perimorph::Coupling
         std::max(in_horizon, Peridynamics::smallest_influence));
     }
 
+    /// Pure bending of a beam along axis a in the plane (a, b), curvature 1:
+    /// strain -x_b along a, uniaxial stress.
+    template <int dim>
+    dealii::Tensor<1, dim>
+    bending_field(const int                     a,
+                  const int                     b,
+                  const double                  poissons_ratio,
+                  const dealii::Tensor<1, dim> &x)
+    {
+      dealii::Tensor<1, dim> u;
+      u[a] = -x[a] * x[b];
+      u[b] = 0.5 * (x[a] * x[a] + poissons_ratio * x[b] * x[b]);
+      for (int c = 0; c < dim; ++c)
+        if (c != a && c != b)
+          {
+            u[b] -= 0.5 * poissons_ratio * x[c] * x[c];
+            u[c] += poissons_ratio * x[b] * x[c];
+          }
+      return u;
+    }
+
+    /// Weighs the bonds of the row that is being written so that its z-energy
+    /// is the variance of the energy of every bending field along the axes,
+    /// for kappa = gamma: w_ij sum_d kappa_d (xi_d / |xi|)^2.
+    /// @param variance  of the position over the averaging weights
+    template <int dim>
+    void
+    weigh_by_bending(const Mesh::NodalMesh<dim>   &mesh,
+                     const unsigned int            node,
+                     const dealii::Tensor<1, dim> &variance,
+                     const ElasticConstants       &constants,
+                     Peridynamics::FamilySet<dim> &set)
+    {
+      const std::size_t begin   = set.offsets.back();
+      const auto        squares = [&](const std::size_t bond) {
+        dealii::Tensor<1, dim> c =
+          mesh.nodes[set.neighbor[bond]] - mesh.nodes[node];
+        const double length_square = c.norm_square();
+        for (int d = 0; d < dim; ++d)
+          c[d] *= c[d] / length_square;
+        return c;
+      };
+      // One row per bending field: z-energy of each kappa_d = 1, and the energy
+      // that is missing; rows are scaled to the latter.
+      Eigen::Matrix<double, dim *(dim - 1), dim> shares;
+      shares.setZero();
+      double smallest = std::numeric_limits<double>::max();
+      int    row      = 0;
+      for (int a = 0; a < dim; ++a)
+        for (int b = 0; b < dim; ++b)
+          if (a != b)
+            {
+              dealii::Tensor<2, dim> H;
+              const auto             eta = [&](const std::size_t bond) {
+                return bending_field<dim>(a,
+                                          b,
+                                          constants.poissons_ratio,
+                                          mesh.nodes[set.neighbor[bond]] -
+                                            mesh.nodes[node]);
+              };
+              for (std::size_t j = begin; j < set.neighbor.size(); ++j)
+                H += outer_product(eta(j), set.gradient_weight[j]);
+              for (std::size_t j = begin; j < set.neighbor.size(); ++j)
+                {
+                  const dealii::Tensor<1, dim> xi =
+                    mesh.nodes[set.neighbor[j]] - mesh.nodes[node];
+                  const double energy =
+                    set.bond_weight[j] * (eta(j) - H * xi).norm_square() /
+                    (constants.youngs_modulus * variance[b]);
+                  for (int d = 0; d < dim; ++d)
+                    shares(row, d) += energy * squares(j)[d];
+                }
+              smallest = std::min(smallest, 1. / shares.row(row).sum());
+              ++row;
+            }
+      // Weights below a part of the scalar solution would not control
+      // zero-energy modes: they stay there, the others follow.
+      const double floor = 0.5 * smallest;
+      using Column       = Eigen::Matrix<double, dim *(dim - 1), 1>;
+      std::array<bool, dim>         held{};
+      Eigen::Matrix<double, dim, 1> kappa;
+      for (int pass = 0; pass < dim; ++pass)
+        {
+          Eigen::Matrix<double, dim *(dim - 1), dim> system = shares;
+          Column                                     rest   = Column::Ones();
+          for (int d = 0; d < dim; ++d)
+            if (held[d])
+              {
+                rest -= floor * shares.col(d);
+                system.col(d).setZero();
+              }
+          kappa = system.completeOrthogonalDecomposition().solve(rest);
+          for (int d = 0; d < dim; ++d)
+            if (held[d] || !(kappa[d] >= floor))
+              {
+                held[d]  = true;
+                kappa[d] = floor;
+              }
+        }
+      for (std::size_t j = begin; j < set.neighbor.size(); ++j)
+        {
+          double factor = 0.;
+          for (int d = 0; d < dim; ++d)
+            factor += kappa[d] * squares(j)[d];
+          set.bond_weight[j] *= factor;
+        }
+    }
+
     template <int dim>
     void
     close_family(const Mesh::NodalMesh<dim>   &mesh,
@@ -103,7 +215,7 @@ namespace Perimorph::Coupling
                  const double                  weight,
                  const FamilyParameters       &parameters,
                  Peridynamics::FamilySet<dim> &set,
-                 const bool                    classical_gradient)
+                 const dealii::Tensor<1, dim> *variance)
     {
       const auto K = shape_tensor_of_last_row(mesh, set, particle.node);
       // The determinant of a regular shape tensor is of the order of its norm
@@ -120,7 +232,7 @@ namespace Perimorph::Coupling
             "Use a larger horizon ratio or a mesh with more cells across."});
         }
       const auto inverse = invert(K);
-      if (classical_gradient)
+      if (!variance)
         for (std::size_t b = set.offsets.back(); b < set.neighbor.size(); ++b)
           set.gradient_weight[b] =
             set.bond_weight[b] * (inverse * (mesh.nodes[set.neighbor[b]] -
@@ -128,12 +240,24 @@ namespace Perimorph::Coupling
       set.node.push_back(particle.node);
       set.material.push_back(particle.material);
       set.weight.push_back(weight);
-      set.stabilization.push_back(parameters.gamma *
-                                  parameters.shear_modulus[particle.material] *
-                                  trace(inverse) / dim);
+      const auto &constants = parameters.constants[particle.material];
+      const bool  bending =
+        variance && parameters.scale == StabilizationScale::bending;
+      if (bending)
+        weigh_by_bending(mesh, particle.node, *variance, constants, set);
+      set.stabilization.push_back(
+        parameters.gamma *
+        (bending ? 1. : constants.shear_modulus * trace(inverse) / dim));
       set.offsets.push_back(set.neighbor.size());
     }
   } // namespace
+
+  const std::vector<std::string> &
+  stabilization_scale_names()
+  {
+    static const std::vector<std::string> names = {"bending", "shear modulus"};
+    return names;
+  }
 
   template <int dim>
   Peridynamics::FamilySet<dim>
@@ -187,7 +311,8 @@ namespace Perimorph::Coupling
           parameters.progress(p, particles.size());
         if (!mesh.owns_node(node))
           continue;
-        double weight = 0.;
+        double                 weight = 0.;
+        dealii::Tensor<1, dim> first_moment, second_moment;
         for (const unsigned int c : supports.row(p))
           {
             const Geometry &geometry = geometries[slot[c]];
@@ -201,6 +326,12 @@ namespace Perimorph::Coupling
                                      averaging(node, geometry, q) /
                                      weight_sums[slot[c]][q];
                 weight += share;
+                const auto x = geometry.points[q] - mesh.nodes[node];
+                for (int d = 0; d < dim; ++d)
+                  {
+                    first_moment[d] += share * x[d];
+                    second_moment[d] += share * x[d] * x[d];
+                  }
                 for (unsigned int v = 0; v < Geometry::n_nodes; ++v)
                   scratch.at(mesh.cells[c][v]) +=
                     share * geometry.gradients[q][v];
@@ -216,7 +347,11 @@ namespace Perimorph::Coupling
                         parameters.influence,
                         set);
         scratch.clear();
-        close_family(mesh, particles[p], weight, parameters, set, false);
+        dealii::Tensor<1, dim> variance;
+        for (int d = 0; d < dim; ++d)
+          variance[d] =
+            second_moment[d] / weight - std::pow(first_moment[d] / weight, 2);
+        close_family(mesh, particles[p], weight, parameters, set, &variance);
       }
     return set;
   }
@@ -274,7 +409,7 @@ namespace Perimorph::Coupling
                      alpha[node] * volume,
                      parameters,
                      set,
-                     true);
+                     static_cast<const dealii::Tensor<1, dim> *>(nullptr));
       }
     return set;
   }

@@ -82,6 +82,22 @@ namespace Perimorph::Coupling
       return weights;
     }
 
+    template <int dim>
+    ElasticConstants
+    constants_at_rest(const Materials::Material<dim> &law)
+    {
+      const auto   A      = law.tangent(dealii::Tensor<2, dim>());
+      const double lambda = A[0][0][1][1];
+      const double mu     = A[0][1][0][1];
+      if (dim == 2)
+        return {mu,
+                4. * mu * (lambda + mu) / (lambda + 2. * mu),
+                lambda / (lambda + 2. * mu)};
+      return {mu,
+              mu * (3. * lambda + 2. * mu) / (lambda + mu),
+              0.5 * lambda / (lambda + mu)};
+    }
+
     std::vector<double>
     complement(const std::vector<double> &alpha)
     {
@@ -136,10 +152,11 @@ namespace Perimorph::Coupling
     const bool       forces = parameters.scheme == Scheme::force_blending;
     FamilyParameters options{parameters.influence,
                              parameters.gamma,
+                             parameters.scale,
                              {},
                              progress};
     for (const auto &law : materials.laws)
-      options.shear_modulus.push_back(law->shear_modulus());
+      options.constants.push_back(constants_at_rest(*law));
 
     Peridynamics::FamilySet<dim> set;
     Base::collectively(mesh.communicator(), [&]() {

@@ -21,6 +21,7 @@ namespace Perimorph::Application
     std::vector<dealii::Tensor<1, dim>> internal_force;
     std::vector<dealii::Tensor<1, dim>> external_force;
     double                              strain_energy = 0.;
+    double                              time          = 0.;
   };
 
   /// One number for results.json.
@@ -64,7 +65,7 @@ namespace Perimorph::Application
 
     /// Exact displacement at the nodes; empty without a reference.
     std::vector<dealii::Tensor<1, dim>>
-    reference_displacement() const;
+    reference_displacement(double time) const;
 
     /// Largest of the force and moment that is left over when loads and
     /// reactions are added up, relative to the sum of their magnitudes.

@@ -58,6 +58,7 @@ namespace Perimorph::Application
       std::unique_ptr<Coupling::CoupledProblem<dim>> problem;
       std::unique_ptr<Solvers::Equilibrium<dim>>     equilibrium;
       Fem::Vector                                    displacement;
+      double                                         time = 0.;
     };
 
     void

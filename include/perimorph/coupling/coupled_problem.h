@@ -37,7 +37,8 @@ namespace Perimorph::Coupling
     Scheme                          scheme = Scheme::consistent;
     Peridynamics::InfluenceFunction influence =
       Peridynamics::InfluenceFunction::gaussian;
-    double gamma = 1.;
+    double             gamma = 1.;
+    StabilizationScale scale = StabilizationScale::bending;
   };
 
   /// The materials of the body: laws for elements and families, constants for

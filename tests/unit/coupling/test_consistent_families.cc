@@ -95,7 +95,7 @@ namespace Perimorph::Coupling
     expect_consistent(const Mesh::NodalMesh<dim> &mesh, const double ratio)
     {
       FamilyParameters parameters;
-      parameters.shear_modulus = {1.};
+      parameters.constants = {{1., 2.5, 0.25}};
       for (const auto function :
            {BlendingFunction::cubic, BlendingFunction::splice})
         for (const auto influence :
@@ -134,8 +134,8 @@ namespace Perimorph::Coupling
     const auto       mesh  = Testing::unit_mesh<2>(16, 0.2);
     const auto       alpha = ball_alpha(mesh, BlendingFunction::cubic);
     FamilyParameters parameters;
-    parameters.shear_modulus = {1.};
-    const auto errors        = consistency(
+    parameters.constants = {{1., 2.5, 0.25}};
+    const auto errors    = consistency(
       mesh,
       alpha,
       classical_families(mesh, alpha, horizons(mesh, 2.), parameters));
@@ -150,8 +150,8 @@ namespace Perimorph::Coupling
     // (2.5, 1.5) h are 2.92 h away, so their corners count: 7 x 5 and 5 x 7
     // nodes together, without the particle 44.
     FamilyParameters parameters;
-    parameters.shear_modulus = {1.};
-    const auto largest       = [](const auto &set) {
+    parameters.constants = {{1., 2.5, 0.25}};
+    const auto largest   = [](const auto &set) {
       std::size_t size = 0;
       for (std::size_t p = 0; p < set.n_particles(); ++p)
         size = std::max(size, set.offsets[p + 1] - set.offsets[p]);
@@ -191,13 +191,13 @@ namespace Perimorph::Coupling
     // through kappa = gamma mu tr(K^-1) / 2 = mu / (14 h^4).
     const auto       mesh = Testing::unit_mesh<2>(10);
     FamilyParameters parameters;
-    parameters.shear_modulus = {3.};
-    parameters.influence     = Peridynamics::InfluenceFunction::constant;
-    const auto set           = classical_families(mesh,
+    parameters.constants = {{3., 7.5, 0.25}};
+    parameters.influence = Peridynamics::InfluenceFunction::constant;
+    const auto set       = classical_families(mesh,
                                         std::vector<double>(mesh.n_nodes(), 1.),
                                         horizons(mesh, 2.),
                                         parameters);
-    bool       found         = false;
+    bool       found     = false;
     for (std::size_t p = 0; p < set.n_particles(); ++p)
       if (mesh.nodes[set.node[p]].distance(dealii::Point<2>(0.5, 0.5)) < 1e-10)
         {
@@ -213,8 +213,8 @@ namespace Perimorph::Coupling
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       mesh.cell_material[c] = mesh.cell_centroid[c][0] > 0.5 ? 1 : 0;
     FamilyParameters parameters;
-    parameters.shear_modulus = {1., 10.};
-    const auto alpha         = std::vector<double>(mesh.n_nodes(), 1.);
+    parameters.constants = {{1., 2.5, 0.25}, {10., 25., 0.25}};
+    const auto alpha     = std::vector<double>(mesh.n_nodes(), 1.);
     const auto set =
       consistent_families(mesh, alpha, horizons(mesh, 2.), parameters);
     EXPECT_GT(set.n_particles(), mesh.n_nodes());
