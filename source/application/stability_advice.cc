@@ -87,18 +87,54 @@ namespace Perimorph::Application
     if (region.n_core + region.n_blending == 0)
       return advice.list;
 
-    const bool   bonds  = parameters.model == Coupling::Model::bond_based;
-    const double gamma  = parameters.gamma;
-    const auto   shapes = peridynamic_cell_shapes(mesh, region);
-    double       ratio  = 0.;
+    const auto shapes = peridynamic_cell_shapes(mesh, region);
+    double     ratio  = 0.;
     for (unsigned int n = 0; n < mesh.n_nodes(); ++n)
       if (region.alpha[n] > 0.)
         ratio = std::max(ratio, region.horizon[n] / mesh.spacing[n]);
 
-    (void)bonds;
-    (void)gamma;
-    (void)finite_strain;
-    (void)shapes;
+    if (parameters.model == Coupling::Model::bond_based)
+      {
+        // No element stands behind the bonds at the surface of the body.
+        const bool alone = region.n_blending + region.n_elements == 0;
+        advice.add_if(shapes.aspect > 4.,
+                      "bonds on cells with an aspect ratio of",
+                      shapes.aspect,
+                      "the stiffness may be indefinite and the result wrong. "
+                      "Use cells with a ratio below 2.5, or model = "
+                      "correspondence");
+        advice.add_if(finite_strain && shapes.aspect > 2.5 &&
+                        shapes.aspect <= 4.,
+                      "bonds on cells with an aspect ratio of",
+                      shapes.aspect,
+                      "they may lose stability in compression. Use cells with "
+                      "a ratio below 2.5, or model = correspondence");
+        advice.add_if(finite_strain && alone && ratio > 2.5,
+                      "bonds everywhere with a horizon ratio of",
+                      ratio,
+                      "they may lose stability in compression. Use a ratio of "
+                      "2, or Mode = coupled with elements at the surface");
+        return advice.list;
+      }
+    const double gamma = parameters.gamma;
+    advice.add_if(gamma < 0.25,
+                  "parameter 'Peridynamics / stabilization'",
+                  gamma,
+                  "zero-energy modes are not held; 1 fits all");
+    advice.add_if(gamma > 1.5,
+                  "parameter 'Peridynamics / stabilization'",
+                  gamma,
+                  "bending becomes too stiff; 1 fits all");
+    advice.add_if(ratio > 3.01,
+                  "families with a horizon ratio of",
+                  ratio,
+                  "wrong stiffness in bending unless the body is much thicker "
+                  "than the horizon; usual value: 2");
+    advice.add_if(shapes.aspect > 2.5,
+                  "families on cells with an aspect ratio of",
+                  shapes.aspect,
+                  "bending along the long sides is too stiff, as with finite "
+                  "elements. Use cells with a ratio below 2.5");
     return advice.list;
   }
 

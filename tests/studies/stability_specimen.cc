@@ -164,11 +164,12 @@ namespace Perimorph::Studies
       }
     else
       {
-        const unsigned int layers = dim == 2 ? 6 : 3;
+        const unsigned int layers = dim == 2 ? 6 : 4;
+        const double       length = dim == 2 ? 4. : 3.;
         n_cells.fill(layers);
-        n_cells[0] = std::lround(4. * layers / combination.aspect);
+        n_cells[0] = std::lround(length * layers / combination.aspect);
         for (int d = 0; d < dim; ++d)
-          upper[d] = d == 0 ? 4. : 1.;
+          upper[d] = d == 0 ? length : 1.;
       }
     size             = upper;
     distributed_mesh = std::make_unique<Mesh::DistributedMesh<dim>>(
@@ -328,8 +329,12 @@ namespace Perimorph::Studies
     Eigen::VectorXd       rhs(unknowns.size());
     for (unsigned int k = 0; k < unknowns.size(); ++k)
       rhs[k] = rest[unknowns[k]];
-    const Eigen::VectorXd solution =
-      reduced(K, unknowns).partialPivLu().solve(rhs);
+    const Eigen::MatrixXd             matrix = reduced(K, unknowns);
+    const Eigen::LLT<Eigen::MatrixXd> factor(matrix);
+    const Eigen::VectorXd             solution =
+      factor.info() == Eigen::Success
+                    ? Eigen::VectorXd(factor.solve(rhs))
+                    : Eigen::VectorXd(matrix.partialPivLu().solve(rhs));
     for (unsigned int k = 0; k < unknowns.size(); ++k)
       if (unknowns[k] == dim * tip + 1)
         return solution[k] / exact(nodal.nodes[tip])[1];

@@ -41,7 +41,7 @@ namespace Perimorph::Studies
   enum class Shape
   {
     block, ///< 12 x 12 or 4 x 4 x 4 cells, length 1 along x
-    beam   ///< length 4, depth (and width) 1
+    beam   ///< depth (and width) 1, length 4 (3D: 3); 6 (4) layers
   };
 
   enum class Law
