@@ -1,8 +1,10 @@
 #include <perimorph/application/simulation.h>
+#include <perimorph/application/stability_advice.h>
 #include <perimorph/base/log.h>
 #include <perimorph/base/name_help.h>
 #include <perimorph/materials/material_factory.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -43,6 +45,20 @@ namespace Perimorph::Application
       errors.collect([&]() { hold_rigid_motion(); });
     errors.throw_if_any();
     warn_if_nothing_happens();
+    double poissons_ratio = 0.;
+    if (parameters.state != Materials::PlaneState::plane_stress)
+      {
+        poissons_ratio = parameters.material.poissons_ratio;
+        for (const auto &entry : parameters.volume_materials)
+          poissons_ratio =
+            std::max(poissons_ratio, entry.second.poissons_ratio);
+      }
+    for (const auto &text : stability_advice(mesh->nodal(),
+                                             region,
+                                             parameters.coupling,
+                                             poissons_ratio,
+                                             parameters.finite_strain()))
+      log.warning(text);
     for (const unsigned int node : loads->loaded_points())
       {
         std::ostringstream text;

@@ -20,6 +20,16 @@ Physical Curve("right") = Curve In BoundingBox{1.9, -.1, -.1, 2.1, 1.1, .1};
 Physical Curve("facing") = Curve In BoundingBox{.9, -.1, -.1, 1.001, 1.1, .1};
 Physical Curve("moved") = Curve In BoundingBox{1.01, -.1, -.1, 1.03, 1.1, .1};
 """
+FLAT_CELLS = """SetFactory("OpenCASCADE");
+Rectangle(1) = {0, 0, 0, 2, 1};
+Transfinite Curve{1, 3} = 9;
+Transfinite Curve{2, 4} = 25;
+Transfinite Surface{1};
+Recombine Surface{1};
+Physical Surface("A") = {1};
+Physical Curve("left") = {4};
+Physical Curve("right") = {2};
+"""
 BAR = """subsection Mesh
   set file = %(mesh)s
 end
@@ -188,12 +198,62 @@ def far_from_the_origin(runner, failures):
     failures.end(outcome)
 
 
+def advice(runner, failures):
+    """What harms stability (doc/stability) is said before the solve."""
+    loaded = ["Boundary conditions/displacement=left: x = 0, y = 0",
+              "Boundary conditions/traction=right: x = 1e-3"]
+    bonds = ["Peridynamics/model=bond based"]
+    finite = ["Material/law=prototype microelastic"]
+    everywhere = ["Mode=peridynamics"]
+    for name, words, expected in (
+        ("usual entries", [], None),
+        ("no stabilisation", ["Peridynamics/stabilization=0"],
+         "zero-energy modes"),
+        ("strong stabilisation", ["Peridynamics/stabilization=5"],
+         "bending becomes too stiff"),
+        ("wide families", ["Peridynamics/horizon ratio=4"],
+         "horizon ratio of 4"),
+        ("nearly incompressible", ["Material/Poisson's ratio=0.49"],
+         "nearly incompressible"),
+        ("the same in plane stress", ["Material/Poisson's ratio=0.49",
+                                      "Material/state=plane stress"], None),
+        ("wide bonds", bonds + finite + everywhere +
+         ["Peridynamics/horizon ratio=3"], "lose stability"),
+        ("wide bonds at small strain", bonds + everywhere +
+         ["Peridynamics/horizon ratio=3"], None),
+    ):
+        failures.begin("advice: " + name)
+        outcome = bar(runner, "1", FRAGMENTS, loaded + words)
+        if failures.check(outcome.code == 0, "exit %d" % outcome.code):
+            warnings = outcome.results()["warnings"]
+            if expected is None:
+                failures.check(not warnings, "warnings: %s" % warnings)
+            else:
+                failures.check(any(expected in text for text in warnings),
+                               "no warning with '%s'" % expected)
+        failures.end(outcome)
+    for name, model, expected in (
+        ("families", "correspondence", "bending along the long sides"),
+        ("bonds", "bond based", "indefinite")):
+        failures.begin("advice: flat cells, " + name)
+        folder = runner.new_folder()
+        write(folder, "bar.geo", FLAT_CELLS)
+        write(folder, "bar.prm", BAR % {"mesh": "bar.geo"})
+        outcome = runner.run(
+            ["bar.prm", "--validate", "--set", "Peridynamics/model=" + model,
+             "--set", loaded[0], "--set", loaded[1]], 1, folder)
+        if failures.check(outcome.code == 0, "exit %d" % outcome.code):
+            failures.check(expected in outcome.text,
+                           "no warning with '%s'" % expected)
+        failures.end(outcome)
+
+
 def main():
     arguments = parse_arguments(__doc__)
     failures = Failures()
     runner = Runner(arguments)
     for case in (tiny_strains, two_materials, gap, unloading,
-                 unwritable_files, far_from_the_origin):
+                 unwritable_files, far_from_the_origin, advice):
         case(runner, failures)
     finish(failures)
 

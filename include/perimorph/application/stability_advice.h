@@ -24,7 +24,8 @@ namespace Perimorph::Application
 
   /// What is known to go wrong with such parameters on such a mesh, one
   /// warning each; the limits are those measured in doc/stability.
-  /// @param poissons_ratio  the largest of the body
+  /// @param poissons_ratio  the largest of the body; 0 in plane stress, where
+  ///        nothing locks
   template <int dim>
   std::vector<std::string>
   stability_advice(const Mesh::NodalMesh<dim>         &mesh,
