@@ -45,18 +45,20 @@ namespace Perimorph::Application
       errors.collect([&]() { hold_rigid_motion(); });
     errors.throw_if_any();
     warn_if_nothing_happens();
-    double poissons_ratio = 0.;
-    if (parameters.state != Materials::PlaneState::plane_stress)
+    auto ratios = std::make_pair(parameters.material.poissons_ratio,
+                                 parameters.material.poissons_ratio);
+    for (const auto &entry : parameters.volume_materials)
       {
-        poissons_ratio = parameters.material.poissons_ratio;
-        for (const auto &entry : parameters.volume_materials)
-          poissons_ratio =
-            std::max(poissons_ratio, entry.second.poissons_ratio);
+        const double ratio = entry.second.poissons_ratio;
+        ratios.first       = std::min(ratios.first, ratio);
+        ratios.second      = std::max(ratios.second, ratio);
       }
+    if (parameters.state == Materials::PlaneState::plane_stress)
+      ratios.second = 0.;
     for (const auto &text : stability_advice(mesh->nodal(),
                                              region,
                                              parameters.coupling,
-                                             poissons_ratio,
+                                             ratios,
                                              parameters.finite_strain()))
       log.warning(text);
     for (const unsigned int node : loads->loaded_points())

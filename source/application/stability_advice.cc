@@ -75,13 +75,13 @@ namespace Perimorph::Application
   stability_advice(const Mesh::NodalMesh<dim>         &mesh,
                    const Mesh::RegionMap              &region,
                    const Coupling::CouplingParameters &parameters,
-                   const double                        poissons_ratio,
+                   const std::pair<double, double>    &poissons_ratios,
                    const bool                          finite_strain)
   {
     Advice advice;
-    advice.add_if(poissons_ratio > 0.48,
+    advice.add_if(poissons_ratios.second > 0.48,
                   "Poisson's ratio",
-                  poissons_ratio,
+                  poissons_ratios.second,
                   "nearly incompressible, where finite elements of this kind "
                   "lock (displacements come out too small)");
     if (region.n_core + region.n_blending == 0)
@@ -116,6 +116,19 @@ namespace Perimorph::Application
                       "2, or Mode = coupled with elements at the surface");
         return advice.list;
       }
+    advice.add_if(poissons_ratios.first < -0.25,
+                  "families with Poisson's ratio",
+                  poissons_ratios.first,
+                  "the stabilisation makes coarse meshes too stiff in bending; "
+                  "compare with a finer mesh");
+    advice.add_if(dim == 3 && ratio < 2.5 &&
+                    parameters.influence ==
+                      Peridynamics::InfluenceFunction::cubic_spline,
+                  "influence function cubic spline in 3D with a horizon ratio "
+                  "of",
+                  ratio,
+                  "too narrow, bending becomes too stiff; use gaussian or a "
+                  "ratio of 3");
     const double gamma = parameters.gamma;
     advice.add_if(gamma < 0.25,
                   "parameter 'Peridynamics / stabilization'",
@@ -146,7 +159,7 @@ namespace Perimorph::Application
     const Mesh::NodalMesh<dim> &,                          \
     const Mesh::RegionMap &,                               \
     const Coupling::CouplingParameters &,                  \
-    double,                                                \
+    const std::pair<double, double> &,                     \
     bool);
   PERIMORPH_INSTANTIATE(2)
   PERIMORPH_INSTANTIATE(3)

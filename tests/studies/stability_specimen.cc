@@ -220,11 +220,12 @@ namespace Perimorph::Studies
   std::vector<std::string>
   Specimen<dim>::warnings() const
   {
-    return Application::stability_advice(mesh(),
-                                         region,
-                                         parameters,
-                                         combination.poissons_ratio,
-                                         finite_strain);
+    return Application::stability_advice(
+      mesh(),
+      region,
+      parameters,
+      {combination.poissons_ratio, combination.poissons_ratio},
+      finite_strain);
   }
 
   template <int dim>

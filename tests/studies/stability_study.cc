@@ -17,6 +17,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <random>
 #include <sstream>
 #include <vector>
 
@@ -68,6 +69,33 @@ namespace Perimorph::Studies
             combination.*second = b;
             result.combinations.push_back(combination);
           }
+      return result;
+    }
+
+    /// Combinations that no limit of the program was chosen from: all
+    /// parameters at random.
+    Sweep
+    random_sweep(const unsigned int n)
+    {
+      Sweep        result{"random", {}, true};
+      std::mt19937 engine(17);
+      const auto   number = [&](const double from, const double to) {
+        // raw engine output: the same numbers with every standard library
+        const double value = from + (to - from) * (engine() / 4294967295.);
+        return std::round(100. * value) / 100.;
+      };
+      for (unsigned int k = 0; k < n; ++k)
+        {
+          Combination combination;
+          combination.horizon_ratio  = number(1.2, 4.);
+          combination.perturbation   = number(0., 0.35);
+          combination.poissons_ratio = k % 2 == 0 ? 0.25 : number(-.3, .499);
+          combination.influence = static_cast<InfluenceFunction>(engine() % 4);
+          combination.aspect    = number(1., 4.);
+          combination.grading   = number(1., 3.);
+          combination.gamma     = number(0.1, 2.5);
+          result.combinations.push_back(combination);
+        }
       return result;
     }
 
@@ -123,6 +151,7 @@ namespace Perimorph::Studies
               {1.5, 3., 5.},
               &C::grading,
               {8.}),
+        random_sweep(24),
       };
     }
 

@@ -3,6 +3,7 @@
 #include <perimorph/coupling/coupled_problem.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Perimorph::Application
@@ -24,13 +25,13 @@ namespace Perimorph::Application
 
   /// What is known to go wrong with such parameters on such a mesh, one
   /// warning each; the limits are those measured in doc/stability.
-  /// @param poissons_ratio  the largest of the body; 0 in plane stress, where
-  ///        nothing locks
+  /// @param poissons_ratios  smallest and largest of the body; the largest 0 in
+  ///        plane stress, where nothing locks
   template <int dim>
   std::vector<std::string>
   stability_advice(const Mesh::NodalMesh<dim>         &mesh,
                    const Mesh::RegionMap              &region,
                    const Coupling::CouplingParameters &parameters,
-                   double                              poissons_ratio,
+                   const std::pair<double, double>    &poissons_ratios,
                    bool                                finite_strain);
 } // namespace Perimorph::Application
