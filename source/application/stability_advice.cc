@@ -97,18 +97,12 @@ namespace Perimorph::Application
       {
         // No element stands behind the bonds at the surface of the body.
         const bool alone = region.n_blending + region.n_elements == 0;
-        advice.add_if(shapes.aspect > 4.,
+        advice.add_if(shapes.aspect > 2.5,
                       "bonds on cells with an aspect ratio of",
                       shapes.aspect,
-                      "the stiffness may be indefinite and the result wrong. "
-                      "Use cells with a ratio below 2.5, or model = "
-                      "correspondence");
-        advice.add_if(finite_strain && shapes.aspect > 2.5 &&
-                        shapes.aspect <= 4.,
-                      "bonds on cells with an aspect ratio of",
-                      shapes.aspect,
-                      "they may lose stability in compression. Use cells with "
-                      "a ratio below 2.5, or model = correspondence");
+                      "the stiffness may be indefinite and the result wrong, "
+                      "above all in compression. Use cells with a ratio below "
+                      "2.5, or model = correspondence");
         advice.add_if(finite_strain && alone && ratio > 2.5,
                       "bonds everywhere with a horizon ratio of",
                       ratio,
