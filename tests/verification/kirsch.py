@@ -29,6 +29,8 @@ subsection Peridynamics
   set blending width     = 0.8
   set horizon ratio      = {ratio}
   set influence function = {influence}
+  # what the table was measured with
+  set stabilization scale = shear modulus
 end
 subsection Boundary conditions
   set displacement = outer: {exact}
