@@ -72,8 +72,7 @@ namespace Perimorph::Studies
       return result;
     }
 
-    /// Combinations that no limit of the program was chosen from: all
-    /// parameters at random.
+    /// All parameters at random: a check of limits chosen from the others.
     Sweep
     random_sweep(const unsigned int n)
     {
