@@ -141,8 +141,9 @@ namespace Perimorph::Application
       "stabilization scale",
       stabilization_scale,
       "bending: the energy of bending fields is exact for gamma "
-      "= 1. shear modulus: gamma mu tr(K^-1) / dim.",
-      choice(Coupling::stabilization_scale_names()));
+      "= 1. shear modulus: gamma mu tr(K^-1) / dim. automatic: bending in "
+      "2D, shear modulus in 3D.",
+      choice({"automatic", "bending", "shear modulus"}));
     prm.leave_subsection();
 
     prm.enter_subsection("Boundary conditions");

@@ -213,9 +213,13 @@ namespace Perimorph::Application
     coupling.influence =
       Peridynamics::influence_function_from_name(texts.influence_function);
     coupling.gamma = texts.stabilization;
-    coupling.scale = from_name<Coupling::StabilizationScale>(
-      texts.stabilization_scale,
-      Coupling::stabilization_scale_names());
+    // In 3D the bending fields are met in the least-squares sense only.
+    coupling.scale = dim == 2 ? Coupling::StabilizationScale::bending
+                              : Coupling::StabilizationScale::shear_modulus;
+    if (texts.stabilization_scale != "automatic")
+      coupling.scale =
+        from_name<Coupling::StabilizationScale>(texts.stabilization_scale,
+                                                {"bending", "shear modulus"});
   }
 
   template <int dim>

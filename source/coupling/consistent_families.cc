@@ -252,13 +252,6 @@ namespace Perimorph::Coupling
     }
   } // namespace
 
-  const std::vector<std::string> &
-  stabilization_scale_names()
-  {
-    static const std::vector<std::string> names = {"bending", "shear modulus"};
-    return names;
-  }
-
   template <int dim>
   Peridynamics::FamilySet<dim>
   consistent_families(const Mesh::NodalMesh<dim> &mesh,

@@ -36,7 +36,7 @@ namespace Perimorph::Application
     std::string model = "correspondence", around, core_size = "2 horizons",
                 blending_width = "automatic", blending_function = "cubic",
                 influence_function = "gaussian", coupling = "consistent",
-                stabilization_scale = "bending";
+                stabilization_scale = "automatic";
     double horizon_ratio = 2., horizon = 0., stabilization = 1.;
 
     std::string symmetry, displacement, mean_displacement, rigid_plate,

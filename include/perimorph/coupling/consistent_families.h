@@ -5,7 +5,6 @@
 #include <perimorph/peridynamics/influence_function.h>
 
 #include <functional>
-#include <string>
 #include <vector>
 
 namespace Perimorph::Coupling
@@ -16,9 +15,6 @@ namespace Perimorph::Coupling
     bending,      ///< the energy of bending fields is exact
     shear_modulus ///< kappa = gamma mu tr(K^-1) / dim
   };
-
-  const std::vector<std::string> &
-  stabilization_scale_names();
 
   /// Elastic constants of a material at rest, of its plane in 2D.
   struct ElasticConstants
