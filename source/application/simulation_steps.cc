@@ -40,8 +40,12 @@ namespace Perimorph::Application
   {
     if (parameters.arc_length)
       return follow_arc(method, on_step, on_newton);
-    const auto            times = parameters.times();
-    Solvers::LoadStepping stepping(parameters.load_stepping);
+    const auto times        = parameters.times();
+    auto       step_control = parameters.load_stepping;
+    // A linear problem that fails fails with smaller loads too.
+    if (method.equilibrium->is_linear())
+      step_control.maximum_cuts = 0;
+    Solvers::LoadStepping stepping(step_control);
     double                time = 0.;
     for (unsigned int number = 1; number <= times.size(); ++number)
       {
@@ -82,16 +86,14 @@ namespace Perimorph::Application
             continue;
           }
         std::ostringstream text;
-        text << "load step " << number << " (t = " << step.time
+        text << "load step " << number << " (t = " << end
              << ") did not converge";
-        if (parameters.load_stepping.maximum_cuts > 0 &&
-            !method.equilibrium->is_linear())
-          text << ", not even with " << parameters.load_stepping.maximum_cuts
-               << " cuts";
+        if (step_control.maximum_cuts > 0)
+          text << ", not even with " << step_control.maximum_cuts << " cuts";
         text << ": " << record.reason << residuals_text(record)
              << ". The last converged state is that of t = " << reached
              << ", in '" << parameters.output_folder << "'.";
-        if (!parameters.arc_length && parameters.finite_strain())
+        if (parameters.finite_strain())
           text << " Beyond a limit point 'Load steps / control = arc length' "
                   "may help.";
         if (reached != time)
