@@ -341,12 +341,14 @@ namespace Perimorph::Coupling
   template <int dim>
   void
   CoupledProblem<dim>::extrapolate_stress(const Vector &displacement,
-                                          const Vector &step) const
+                                          const Vector &step,
+                                          const bool    of_full_elements) const
   {
     Base::collectively(mesh.communicator(), [&]() {
       for (const auto &term : contributions)
         term->extrapolate_stress(displacement, step);
-      all_cells->extrapolate_stress(displacement, step);
+      if (of_full_elements)
+        all_cells->extrapolate_stress(displacement, step);
     });
   }
 

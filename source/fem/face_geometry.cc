@@ -10,34 +10,71 @@
 namespace Perimorph::Fem
 {
   template <int dim>
-  FaceGeometry<dim>::FaceGeometry(const Mesh::NodalMesh<dim>    &mesh,
-                                  const Mesh::BoundaryFace<dim> &face)
+  FaceQuadrature<dim>::FaceQuadrature()
   {
-    static const dealii::QGauss<dim - 1> quadrature(3);
+    const dealii::QGauss<dim - 1> quadrature(3);
     using Info = dealii::GeometryInfo<dim - 1>;
     for (unsigned int q = 0; q < n_points; ++q)
       {
-        std::array<dealii::Tensor<1, dim>, dim - 1> tangents;
-        points[q] = dealii::Point<dim>();
+        weight[q] = quadrature.weight(q);
         for (unsigned int v = 0; v < n_nodes; ++v)
           {
-            const auto &unit     = quadrature.point(q);
-            const auto &position = mesh.nodes[face.nodes[v]];
-            shape[q][v]          = Info::d_linear_shape_function(unit, v);
-            points[q] += shape[q][v] * position;
-            const auto gradient =
-              Info::d_linear_shape_function_gradient(unit, v);
-            for (int d = 0; d < dim - 1; ++d)
-              tangents[d] += gradient[d] * position;
+            const auto &unit = quadrature.point(q);
+            shape[q][v]      = Info::d_linear_shape_function(unit, v);
+            gradient[q][v]   = Info::d_linear_shape_function_gradient(unit, v);
           }
-        dealii::Tensor<1, dim> normal;
-        if constexpr (dim == 2)
-          normal = cross_product_2d(tangents[0]);
-        else
-          normal = cross_product_3d(tangents[0], tangents[1]);
+      }
+  }
+
+  template <int dim>
+  const FaceQuadrature<dim> &
+  FaceQuadrature<dim>::instance()
+  {
+    static const FaceQuadrature<dim> quadrature;
+    return quadrature;
+  }
+
+  template <int dim>
+  typename FaceQuadrature<dim>::Tangents
+  FaceQuadrature<dim>::tangents(
+    const unsigned int                                 point,
+    const std::array<dealii::Tensor<1, dim>, n_nodes> &values) const
+  {
+    Tangents result;
+    for (unsigned int v = 0; v < n_nodes; ++v)
+      for (int d = 0; d < dim - 1; ++d)
+        result[d] += gradient[point][v][d] * values[v];
+    return result;
+  }
+
+  template <int dim>
+  dealii::Tensor<1, dim>
+  area_vector(const typename FaceQuadrature<dim>::Tangents &tangents)
+  {
+    if constexpr (dim == 2)
+      return cross_product_2d(tangents[0]);
+    else
+      return cross_product_3d(tangents[0], tangents[1]);
+  }
+
+  template <int dim>
+  FaceGeometry<dim>::FaceGeometry(const Mesh::NodalMesh<dim>    &mesh,
+                                  const Mesh::BoundaryFace<dim> &face)
+  {
+    const auto &quadrature = FaceQuadrature<dim>::instance();
+    shape                  = quadrature.shape;
+    std::array<dealii::Tensor<1, dim>, n_nodes> positions;
+    for (unsigned int v = 0; v < n_nodes; ++v)
+      positions[v] = mesh.nodes[face.nodes[v]];
+    for (unsigned int q = 0; q < n_points; ++q)
+      {
+        points[q] = dealii::Point<dim>();
+        for (unsigned int v = 0; v < n_nodes; ++v)
+          points[q] += shape[q][v] * positions[v];
+        auto normal = area_vector<dim>(quadrature.tangents(q, positions));
         if (normal * (points[q] - mesh.cell_centroid[face.cell]) < 0.)
           normal = -normal;
-        normal_jxw[q] = quadrature.weight(q) * normal;
+        normal_jxw[q] = quadrature.weight[q] * normal;
       }
   }
 
@@ -97,6 +134,12 @@ namespace Perimorph::Fem
     return area;
   }
 
+  template struct FaceQuadrature<2>;
+  template struct FaceQuadrature<3>;
+  template dealii::Tensor<1, 2>
+  area_vector<2>(const FaceQuadrature<2>::Tangents &);
+  template dealii::Tensor<1, 3>
+  area_vector<3>(const FaceQuadrature<3>::Tangents &);
   template struct FaceGeometry<2>;
   template struct FaceGeometry<3>;
   template SymmetryPlane<2>

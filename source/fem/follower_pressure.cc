@@ -1,27 +1,14 @@
+#include <perimorph/fem/face_geometry.h>
 #include <perimorph/fem/follower_pressure.h>
-
-#include <deal.II/base/geometry_info.h>
-#include <deal.II/base/quadrature_lib.h>
 
 namespace Perimorph::Fem
 {
   namespace
   {
     template <int dim>
-    using Tangents = std::array<dealii::Tensor<1, dim>, dim - 1>;
+    using Tangents = typename FaceQuadrature<dim>::Tangents;
 
-    /// Normal times area of a surface element from its tangent vectors.
-    template <int dim>
-    dealii::Tensor<1, dim>
-    area_vector(const Tangents<dim> &tangents)
-    {
-      if constexpr (dim == 2)
-        return cross_product_2d(tangents[0]);
-      else
-        return cross_product_3d(tangents[0], tangents[1]);
-    }
-
-    /// Its change when the tangent vectors change.
+    /// Change of the area vector when the tangent vectors change.
     template <int dim>
     dealii::Tensor<1, dim>
     area_vector_change(const Tangents<dim> &tangents,
@@ -36,56 +23,6 @@ namespace Perimorph::Fem
         return cross_product_3d(changes[0], tangents[1]) +
                cross_product_3d(tangents[0], changes[1]);
     }
-
-    /// Shape functions of a face at its quadrature points (exact for the
-    /// normal of a bilinear face).
-    template <int dim>
-    struct FaceQuadrature
-    {
-      static constexpr unsigned int n_nodes  = 1u << (dim - 1);
-      static constexpr unsigned int n_points = dim == 2 ? 3 : 9;
-
-      std::array<double, n_points>                      weight;
-      std::array<std::array<double, n_nodes>, n_points> shape;
-      std::array<std::array<dealii::Tensor<1, dim - 1>, n_nodes>, n_points>
-        gradient;
-
-      FaceQuadrature()
-      {
-        const dealii::QGauss<dim - 1> quadrature(3);
-        using Info = dealii::GeometryInfo<dim - 1>;
-        for (unsigned int q = 0; q < n_points; ++q)
-          {
-            weight[q] = quadrature.weight(q);
-            for (unsigned int v = 0; v < n_nodes; ++v)
-              {
-                shape[q][v] =
-                  Info::d_linear_shape_function(quadrature.point(q), v);
-                gradient[q][v] =
-                  Info::d_linear_shape_function_gradient(quadrature.point(q),
-                                                         v);
-              }
-          }
-      }
-
-      static const FaceQuadrature &
-      instance()
-      {
-        static const FaceQuadrature<dim> quadrature;
-        return quadrature;
-      }
-
-      template <typename Value>
-      Tangents<dim>
-      tangents(const unsigned int q, const Value &value) const
-      {
-        Tangents<dim> result;
-        for (unsigned int v = 0; v < n_nodes; ++v)
-          for (int d = 0; d < dim - 1; ++d)
-            result[d] += gradient[q][v][d] * value(v);
-        return result;
-      }
-    };
   } // namespace
 
   template <int dim>
@@ -111,22 +48,17 @@ namespace Perimorph::Fem
               continue;
             Face face;
             face.load = pressures.size() - 1;
-            dealii::Point<dim> middle;
+            std::array<dealii::Tensor<1, dim>, n_nodes> positions;
             for (unsigned int v = 0; v < n_nodes; ++v)
               {
-                middle += nodal.nodes[boundary_face.nodes[v]] / n_nodes;
+                positions[v]  = nodal.nodes[boundary_face.nodes[v]];
                 face.nodes[v] = partition.local(boundary_face.nodes[v]);
               }
-            const auto normal = area_vector<dim>(
-              quadrature.tangents(FaceQuadrature<dim>::n_points / 2,
-                                  [&](const unsigned int v) {
-                                    return dealii::Tensor<1, dim>(
-                                      nodal.nodes[boundary_face.nodes[v]]);
-                                  }));
-            face.side =
-              normal * (middle - nodal.cell_centroid[boundary_face.cell]) > 0.
-                ? 1.
-                : -1.;
+            constexpr unsigned int  middle = FaceGeometry<dim>::n_points / 2;
+            const FaceGeometry<dim> outward(nodal, boundary_face);
+            const auto              normal =
+              area_vector<dim>(quadrature.tangents(middle, positions));
+            face.side = normal * outward.normal_jxw[middle] > 0. ? 1. : -1.;
             faces.push_back(face);
           }
       }
@@ -174,25 +106,44 @@ namespace Perimorph::Fem
   {
     const auto &quadrature = FaceQuadrature<dim>::instance();
     for (const Face &face : faces)
-      for (unsigned int q = 0; q < FaceQuadrature<dim>::n_points; ++q)
-        {
-          dealii::Point<dim> reference;
-          for (unsigned int v = 0; v < n_nodes; ++v)
-            reference +=
-              quadrature.shape[q][v] * partition.position(face.nodes[v]);
-          const auto normal =
-            area_vector<dim>(quadrature.tangents(q, [&](const unsigned int v) {
-              return dealii::Tensor<1, dim>(
-                partition.position(face.nodes[v]) +
-                this->value_at(displacement.begin(), face.nodes[v]));
-            }));
-          const double factor = quadrature.weight[q] * face.side *
-                                pressures[face.load].value(reference, time);
-          for (unsigned int v = 0; v < n_nodes; ++v)
-            this->add_at(residual.begin(),
-                         face.nodes[v],
-                         factor * quadrature.shape[q][v] * normal);
-        }
+      {
+        const auto positions = deformed_positions(face, displacement.begin());
+        for (unsigned int q = 0; q < FaceQuadrature<dim>::n_points; ++q)
+          {
+            const auto force =
+              pressure_weight(face, q) *
+              area_vector<dim>(quadrature.tangents(q, positions));
+            for (unsigned int v = 0; v < n_nodes; ++v)
+              this->add_at(residual.begin(),
+                           face.nodes[v],
+                           quadrature.shape[q][v] * force);
+          }
+      }
+  }
+
+  template <int dim>
+  std::array<dealii::Tensor<1, dim>, FollowerPressure<dim>::n_nodes>
+  FollowerPressure<dim>::deformed_positions(const Face   &face,
+                                            const double *displacement) const
+  {
+    std::array<dealii::Tensor<1, dim>, n_nodes> positions;
+    for (unsigned int v = 0; v < n_nodes; ++v)
+      positions[v] = partition.position(face.nodes[v]) +
+                     this->value_at(displacement, face.nodes[v]);
+    return positions;
+  }
+
+  template <int dim>
+  double
+  FollowerPressure<dim>::pressure_weight(const Face        &face,
+                                         const unsigned int q) const
+  {
+    const auto        &quadrature = FaceQuadrature<dim>::instance();
+    dealii::Point<dim> reference;
+    for (unsigned int v = 0; v < n_nodes; ++v)
+      reference += quadrature.shape[q][v] * partition.position(face.nodes[v]);
+    return quadrature.weight[q] * face.side *
+           pressures[face.load].value(reference, time);
   }
 
   template <int dim>
@@ -245,19 +196,11 @@ namespace Perimorph::Fem
     const auto &quadrature = FaceQuadrature<dim>::instance();
     const Face &face       = faces[block];
     matrix.reinit(dim * n_nodes, dim * n_nodes);
+    const auto positions = deformed_positions(face, displacement.begin());
     for (unsigned int q = 0; q < FaceQuadrature<dim>::n_points; ++q)
       {
-        dealii::Point<dim> reference;
-        for (unsigned int v = 0; v < n_nodes; ++v)
-          reference +=
-            quadrature.shape[q][v] * partition.position(face.nodes[v]);
-        const auto tangents = quadrature.tangents(q, [&](const unsigned int v) {
-          return dealii::Tensor<1, dim>(
-            partition.position(face.nodes[v]) +
-            this->value_at(displacement.begin(), face.nodes[v]));
-        });
-        const double factor = quadrature.weight[q] * face.side *
-                              pressures[face.load].value(reference, time);
+        const auto   tangents = quadrature.tangents(q, positions);
+        const double factor   = pressure_weight(face, q);
         for (unsigned int w = 0; w < n_nodes; ++w)
           for (int k = 0; k < dim; ++k)
             {

@@ -1,29 +1,17 @@
 #include <perimorph/materials/extrapolated_stress.h>
-
-#include <deal.II/base/symmetric_tensor.h>
+#include <perimorph/materials/finite_strain.h>
 
 namespace Perimorph
 {
   namespace Materials
   {
-    namespace
-    {
-      template <int dim>
-      dealii::Tensor<2, dim>
-      inverse_gradient(const dealii::Tensor<2, dim> &H)
-      {
-        return invert(H + static_cast<dealii::Tensor<2, dim>>(
-                            dealii::unit_symmetric_tensor<dim>()));
-      }
-    } // namespace
-
     template <int dim>
     dealii::Tensor<2, dim>
     extrapolated_stress(const Material<dim>          &material,
                         const dealii::Tensor<2, dim> &H,
                         const dealii::Tensor<2, dim> &step)
     {
-      const auto                   inverse = inverse_gradient(H);
+      const dealii::Tensor<2, dim> inverse = invert(deformation_gradient(H));
       const dealii::Tensor<2, dim> S =
         inverse * material.first_piola_kirchhoff(H);
       const dealii::Tensor<2, dim> dP =
@@ -39,7 +27,7 @@ namespace Perimorph
     {
       auto                         A = material.tangent(H);
       const dealii::Tensor<2, dim> difference =
-        S - inverse_gradient(H) * material.first_piola_kirchhoff(H);
+        S - invert(deformation_gradient(H)) * material.first_piola_kirchhoff(H);
       for (int i = 0; i < dim; ++i)
         for (int j = 0; j < dim; ++j)
           for (int l = 0; l < dim; ++l)

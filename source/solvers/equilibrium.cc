@@ -39,7 +39,6 @@ namespace Perimorph::Solvers
                                 Base::Log                           &log,
                                 Base::Timing                        &timing)
     : problem(problem)
-    , supports(supports)
     , loads(loads)
     , parameters(parameters)
     , log(log)
@@ -266,7 +265,9 @@ namespace Perimorph::Solvers
           correction *= step_length;
           correction.update_ghost_values();
           base.update_ghost_values();
-          problem.extrapolate_stress(base, correction);
+          problem.extrapolate_stress(base,
+                                     correction,
+                                     solver_choice.matrix_free);
         }
       prepare_linear_solver(displacement);
       const auto timer      = timing.scope("linear_solver");

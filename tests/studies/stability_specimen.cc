@@ -9,6 +9,7 @@
 #include <perimorph/solvers/equilibrium.h>
 
 #include <harness/distributed_meshes.h>
+#include <harness/expressions.h>
 #include <harness/test_meshes.h>
 
 #include <cmath>
@@ -23,14 +24,7 @@ namespace Perimorph::Studies
       dim == 2 ? Materials::PlaneState::plane_strain
                : Materials::PlaneState::three_dimensional;
 
-    Parameters::Expression
-    expression(const std::string &text)
-    {
-      Base::InputErrorCollector    errors;
-      const Parameters::Expression result("study", text, {}, errors);
-      errors.throw_if_any();
-      return result;
-    }
+    using Testing::expression;
 
     /// The checks of the reader and of the parameters that a mesh and a
     /// material made here do not pass through.

@@ -105,9 +105,13 @@ namespace Perimorph::Coupling
 
     /// Contribution::extrapolate_stress() of all terms; part of the solution
     /// procedure, not of the problem.
+    /// @param of_full_elements  also of full_elements(), which only a
+    ///                          preconditioner needs
     /// @throws Base::InadmissibleState  on all ranks
     void
-    extrapolate_stress(const Vector &displacement, const Vector &step) const;
+    extrapolate_stress(const Vector &displacement,
+                       const Vector &step,
+                       bool          of_full_elements) const;
     void
     forget_stress() const;
 

@@ -63,6 +63,13 @@ namespace Perimorph::Fem
       unsigned int                      load;
     };
 
+    std::array<dealii::Tensor<1, dim>, n_nodes>
+    deformed_positions(const Face &face, const double *displacement) const;
+    /// Pressure times weight of a quadrature point; the sign turns the area
+    /// vector outward.
+    double
+    pressure_weight(const Face &face, unsigned int q) const;
+
     std::vector<Parameters::Expression> pressures;
     const NodePartition<dim>           &partition;
     std::vector<Face>                   faces;

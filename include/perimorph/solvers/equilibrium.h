@@ -127,7 +127,6 @@ namespace Perimorph::Solvers
     guarded(Vector &displacement, const std::function<NewtonRecord()> &solve);
 
     const Coupling::CoupledProblem<dim>  &problem;
-    const Fem::Supports<dim>             &supports;
     const Fem::Loads<dim>                &loads;
     EquilibriumParameters                 parameters;
     Base::Log                            &log;

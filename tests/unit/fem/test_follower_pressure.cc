@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <harness/distributed_meshes.h>
+#include <harness/expressions.h>
 #include <harness/test_meshes.h>
 
 #include <cmath>
@@ -27,14 +28,9 @@ namespace Perimorph::Fem
         partition = std::make_unique<NodePartition<dim>>(mesh.nodal(),
                                                          needed,
                                                          MPI_COMM_WORLD);
-        Base::InputErrorCollector     errors;
         std::vector<SurfaceLoad<dim>> loads;
         for (const auto &name : mesh.boundary_names())
-          loads.push_back({name,
-                           {},
-                           Parameters::Expression("test", value, {}, errors),
-                           true});
-        errors.throw_if_any();
+          loads.push_back({name, {}, Testing::expression(value), true});
         pressure =
           std::make_unique<FollowerPressure<dim>>(mesh, *partition, loads);
         pressure->set_time(2.);

@@ -8,20 +8,14 @@
 
 #include <gtest/gtest.h>
 #include <harness/distributed_meshes.h>
+#include <harness/expressions.h>
 #include <harness/test_meshes.h>
 
 namespace Perimorph::Fem
 {
   namespace
   {
-    Parameters::Expression
-    expression(const std::string &text)
-    {
-      Base::InputErrorCollector    errors;
-      const Parameters::Expression result("test", text, {}, errors);
-      errors.throw_if_any();
-      return result;
-    }
+    using Testing::expression;
 
     template <int dim>
     Mesh::DistributedMesh<dim>

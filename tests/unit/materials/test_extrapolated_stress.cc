@@ -1,4 +1,5 @@
 #include <perimorph/materials/extrapolated_stress.h>
+#include <perimorph/materials/finite_strain.h>
 #include <perimorph/materials/material_factory.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -17,9 +18,7 @@ namespace Perimorph::Materials
     second_piola_kirchhoff(const Material<dim>          &law,
                            const dealii::Tensor<2, dim> &H)
     {
-      const dealii::Tensor<2, dim> F =
-        H + dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
-      return invert(F) * law.first_piola_kirchhoff(H);
+      return invert(deformation_gradient(H)) * law.first_piola_kirchhoff(H);
     }
 
     template <int dim>

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 #include <harness/distributed_meshes.h>
+#include <harness/expressions.h>
 #include <harness/test_meshes.h>
 
 #include <cmath>
@@ -15,14 +16,7 @@ namespace Perimorph::Solvers
 {
   namespace
   {
-    Parameters::Expression
-    expression(const std::string &text)
-    {
-      Base::InputErrorCollector    errors;
-      const Parameters::Expression result("test", text, {}, errors);
-      errors.throw_if_any();
-      return result;
-    }
+    using Testing::expression;
 
     /// A distorted block with peridynamics in the middle, clamped at x-.
     template <int dim>

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <harness/distributed_meshes.h>
+#include <harness/expressions.h>
 #include <harness/test_meshes.h>
 
 #include <sstream>
@@ -13,14 +14,7 @@ namespace Perimorph::Solvers
 {
   namespace
   {
-    Parameters::Expression
-    expression(const std::string &text)
-    {
-      Base::InputErrorCollector    errors;
-      const Parameters::Expression result("test", text, {}, errors);
-      errors.throw_if_any();
-      return result;
-    }
+    using Testing::expression;
 
     /// A square, held on one side and pulled on the other, with peridynamics in
     /// the middle; its strain energy and the iterations needed.
