@@ -34,22 +34,14 @@ namespace Perimorph::Application
       return a < dim && b < dim ? stress.in_plane[a][b] : stress.out_of_plane;
     }
 
-    /// A value of finite strain beside the Cauchy stress.
-    struct Measure
-    {
-      std::string name; ///< "first_piola_kirchhoff_xy"
-      std::string unit;
-      double      value;
-    };
-
     /// First Piola-Kirchhoff and Kirchhoff stress, logarithmic strain, by
     /// component; in 2D those of the plane and zz.
     template <int dim>
-    std::vector<Measure>
+    std::vector<NamedQuantity>
     finite_strain_measures(const Fracture::Stress<dim> &stress)
     {
-      std::vector<Measure> list;
-      const auto           add = [&](const std::string &name,
+      std::vector<NamedQuantity> list;
+      const auto                 add = [&](const std::string &name,
                            const std::string &unit,
                            const bool         symmetric,
                            const auto        &tensor) {
@@ -57,7 +49,7 @@ namespace Perimorph::Application
           for (unsigned int b = symmetric ? a : 0; b < 3; ++b)
             if (dim == 3 || (a < 2) == (b < 2))
               list.push_back(
-                {name + "_" + letters[a] + letters[b], unit, tensor[a][b]});
+                {name + "_" + letters[a] + letters[b], tensor[a][b], unit});
       };
       add("first_piola_kirchhoff",
           "stress",
@@ -66,49 +58,6 @@ namespace Perimorph::Application
       add("kirchhoff", "stress", true, stress.kirchhoff);
       add("logarithmic_strain", "-", true, stress.logarithmic_strain);
       return list;
-    }
-
-    /// Calls an action for every number of a stress.
-    template <int dim, typename Action>
-    void
-    for_each_number(Fracture::Stress<dim> &stress,
-                    const bool             finite_strain,
-                    const Action          &action)
-    {
-      for (unsigned int c = 0; c < dim * (dim + 1) / 2; ++c)
-        action(stress.in_plane.access_raw_entry(c));
-      action(stress.out_of_plane);
-      if (!finite_strain)
-        return;
-      for (unsigned int a = 0; a < 3; ++a)
-        for (unsigned int b = 0; b < 3; ++b)
-          action(stress.first_piola_kirchhoff[a][b]);
-      for (unsigned int c = 0; c < 6; ++c)
-        action(stress.kirchhoff.access_raw_entry(c));
-      for (unsigned int c = 0; c < 6; ++c)
-        action(stress.logarithmic_strain.access_raw_entry(c));
-    }
-
-    template <int dim>
-    std::vector<double>
-    pack(Fracture::Stress<dim> stress, const bool finite_strain)
-    {
-      std::vector<double> numbers;
-      for_each_number(stress, finite_strain, [&](const double number) {
-        numbers.push_back(number);
-      });
-      return numbers;
-    }
-
-    template <int dim>
-    Fracture::Stress<dim>
-    unpack(const double *numbers, const bool finite_strain)
-    {
-      Fracture::Stress<dim> stress;
-      for_each_number(stress, finite_strain, [&](double &number) {
-        number = *numbers++;
-      });
-      return stress;
     }
 
     /// Hoop stresses are taken about the centre of the circle of that name.
@@ -442,43 +391,6 @@ namespace Perimorph::Application
                                          circle.n_points),
             to_point<dim>(circle.center));
     return files;
-  }
-
-  template <int dim>
-  std::vector<Fracture::Stress<dim>>
-  PostProcessing<dim>::nodal_stress(
-    const State<dim>                                    &state,
-    const std::function<void(std::size_t, std::size_t)> &progress) const
-  {
-    const auto at_rest = [](const dealii::Tensor<1, dim> &u) {
-      return u == dealii::Tensor<1, dim>();
-    };
-    if (std::all_of(state.displacement.begin(),
-                    state.displacement.end(),
-                    at_rest))
-      return std::vector<Fracture::Stress<dim>>(state.displacement.size());
-    const auto &nodal = mesh.nodal();
-    // Complete arrays by adding zeros from the other ranks.
-    const unsigned int n_components =
-      pack(Fracture::Stress<dim>(), parameters.finite_strain()).size();
-    std::vector<double> values(n_components * nodal.n_nodes(), 0.);
-    for (unsigned int n = nodal.owned_begin; n < nodal.owned_end; ++n)
-      {
-        const auto packed = pack(recovery->at_node(n, state.displacement),
-                                 parameters.finite_strain());
-        std::copy(packed.begin(),
-                  packed.end(),
-                  values.begin() + n_components * n);
-        if ((n - nodal.owned_begin) % 1000 == 0)
-          progress(n - nodal.owned_begin, nodal.owned_end - nodal.owned_begin);
-      }
-    if (dealii::Utilities::MPI::n_mpi_processes(mesh.communicator()) > 1)
-      dealii::Utilities::MPI::sum(values, mesh.communicator(), values);
-    std::vector<Fracture::Stress<dim>> all(nodal.n_nodes());
-    for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
-      all[n] = unpack<dim>(values.data() + n_components * n,
-                           parameters.finite_strain());
-    return all;
   }
 
   template <int dim>

@@ -41,27 +41,6 @@ namespace Perimorph::Application
       text << value;
       return text.str();
     }
-
-    unsigned int
-    component_index(const std::string &component)
-    {
-      return component == "x" ? 0 : (component == "y" ? 1 : 2);
-    }
-
-    template <int dim>
-    Fem::ComponentExpressions<dim>
-    expressions(
-      const std::string                                      &path,
-      const std::vector<std::pair<std::string, std::string>> &components,
-      const Parameters::Constants                            &constants,
-      Base::InputErrorCollector                              &errors)
-    {
-      Fem::ComponentExpressions<dim> result;
-      for (const auto &component : components)
-        result[component_index(component.first)] =
-          Parameters::Expression(path, component.second, constants, errors);
-      return result;
-    }
   } // namespace
 
   template <int dim>
@@ -224,130 +203,6 @@ namespace Perimorph::Application
 
   template <int dim>
   void
-  SimulationParameters<dim>::read_boundary_conditions(
-    const ParameterTexts      &texts,
-    Base::InputErrorCollector &errors)
-  {
-    const std::string section = "Boundary conditions / ";
-    const auto        xyz     = Parameters::displacement_components(dim);
-    using Parameters::NameRule;
-    auto &conditions = boundary_conditions;
-
-    conditions.remove_rigid_motion = texts.remove_rigid_motion;
-    conditions.symmetry =
-      Parameters::parse_names(section + "symmetry", texts.symmetry, errors);
-    const auto named = [&](const std::string &entry,
-                           const std::string &text,
-                           const NameRule     rule) {
-      return Parameters::parse_named_components(section + entry,
-                                                text,
-                                                xyz,
-                                                rule,
-                                                errors);
-    };
-    const auto components = [&](const std::string &entry, const auto &list) {
-      return expressions<dim>(section + entry, list, constants, errors);
-    };
-    for (const auto &entry :
-         named("displacement", texts.displacement, NameRule::required))
-      conditions.displacement.push_back(
-        {entry.name, {}, components("displacement", entry.components)});
-    for (const auto &entry :
-         named("traction", texts.traction, NameRule::required))
-      conditions.surface_loads.push_back(
-        {entry.name, components("traction", entry.components), {}});
-    for (const auto &entry :
-         Parameters::parse_named_values(section + "pressure",
-                                        texts.pressure,
-                                        errors))
-      conditions.surface_loads.push_back(
-        {entry.name,
-         {},
-         Parameters::Expression(section + "pressure",
-                                entry.expression,
-                                constants,
-                                errors)});
-    for (const auto &entry :
-         Parameters::parse_named_values(section + "follower pressure",
-                                        texts.follower_pressure,
-                                        errors))
-      conditions.surface_loads.push_back(
-        {entry.name,
-         {},
-         Parameters::Expression(section + "follower pressure",
-                                entry.expression,
-                                constants,
-                                errors),
-         true});
-    if (!texts.follower_pressure.empty() && !finite_strain())
-      errors.add_parameter(section + "follower pressure",
-                           "with the law linear elastic",
-                           "a law of finite strain",
-                           "At small strain a surface keeps its direction: use "
-                           "'pressure'.");
-    auto motion_components = xyz;
-    motion_components.push_back("rotation");
-    const auto read_motions = [&](const std::string                     &entry,
-                                  const std::string                     &text,
-                                  std::vector<Fem::BoundaryMotion<dim>> &list) {
-      for (const auto &named_entry :
-           Parameters::parse_named_components(section + entry,
-                                              text,
-                                              motion_components,
-                                              NameRule::required,
-                                              errors))
-        {
-          Fem::BoundaryMotion<dim> motion;
-          motion.boundary = named_entry.name;
-          std::vector<std::pair<std::string, std::string>> translation;
-          for (const auto &component : named_entry.components)
-            if (component.first == "rotation")
-              {
-                motion.rotation = Parameters::Expression(section + entry,
-                                                         component.second,
-                                                         constants,
-                                                         errors);
-                if (dim == 3 && component.second != "0")
-                  errors.add_parameter(section + entry,
-                                       "rotation = " + component.second,
-                                       "rotation = 0 in 3D, or free");
-              }
-            else
-              translation.push_back(component);
-          motion.translation = components(entry, translation);
-          list.push_back(motion);
-        }
-    };
-    read_motions("mean displacement",
-                 texts.mean_displacement,
-                 conditions.mean_displacement);
-    read_motions("rigid plate", texts.rigid_plate, conditions.rigid_plates);
-    for (const auto &entry :
-         named("body force", texts.body_force, NameRule::optional_volume))
-      conditions.body_forces.push_back(
-        {entry.name, components("body force", entry.components)});
-    for (const auto &entry :
-         Parameters::parse_point_entries(section + "point displacement",
-                                         texts.point_displacement,
-                                         dim,
-                                         xyz,
-                                         errors))
-      conditions.displacement.push_back(
-        {"",
-         entry.coordinates,
-         components("point displacement", entry.components)});
-    for (const auto &entry :
-         Parameters::parse_point_entries(section + "point force",
-                                         texts.point_force,
-                                         dim,
-                                         xyz,
-                                         errors))
-      conditions.point_forces.push_back(
-        {entry.coordinates, components("point force", entry.components)});
-  }
-
-  template <int dim>
-  void
   SimulationParameters<dim>::read_quantities(const ParameterTexts &texts,
                                              const std::string &parameter_file,
                                              Base::InputErrorCollector &errors)
@@ -443,10 +298,9 @@ namespace Perimorph::Application
       errors);
     has_reference_displacement = !exact.empty();
     if (has_reference_displacement)
-      reference_displacement = expressions<dim>("Reference / displacement",
-                                                exact[0].components,
-                                                constants,
-                                                errors);
+      reference_displacement = component_expressions("Reference / displacement",
+                                                     exact[0].components,
+                                                     errors);
     for (const auto &entry :
          Parameters::parse_named_values("Reference / data",
                                         texts.reference_data,

@@ -151,6 +151,12 @@ namespace Perimorph::Application
     read_quantities(const ParameterTexts      &texts,
                     const std::string         &parameter_file,
                     Base::InputErrorCollector &errors);
+    /// Expressions for components x, y, z.
+    Fem::ComponentExpressions<dim>
+    component_expressions(
+      const std::string                                      &path,
+      const std::vector<std::pair<std::string, std::string>> &components,
+      Base::InputErrorCollector                              &errors) const;
     void
     check_law(Base::InputErrorCollector &errors) const;
 
