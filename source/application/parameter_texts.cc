@@ -19,6 +19,13 @@ namespace Perimorph::Application
     {
       return Selection(selection_text(names));
     }
+
+    std::vector<std::string>
+    automatic_or(std::vector<std::string> names)
+    {
+      names.insert(names.begin(), "automatic");
+      return names;
+    }
   } // namespace
 
   void
@@ -124,8 +131,10 @@ namespace Perimorph::Application
     prm.add_parameter(
       "influence function",
       influence_function,
-      "Weight of a bond over its length (correspondence model).",
-      choice(Peridynamics::influence_function_names()));
+      "Weight of a bond over its length (correspondence model). automatic: "
+      "gaussian, or cubic spline in 2D if horizon / spacing is above 2.5 in "
+      "the mean.",
+      choice(automatic_or(Peridynamics::influence_function_names())));
     prm.add_parameter(
       "coupling",
       coupling,
@@ -353,6 +362,12 @@ namespace Perimorph::Application
     prm.add_parameter("particles",
                       write_particles,
                       "Write particles.pvd for ParaView.",
+                      Bool());
+    prm.add_parameter("virial stress",
+                      write_virial_stress,
+                      "Bond-based model: write the peridynamic stress of the "
+                      "bonds (first Piola-Kirchhoff) to particles.pvd. Right "
+                      "at one horizon and more from surfaces and elements.",
                       Bool());
     prm.leave_subsection();
   }

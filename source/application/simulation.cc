@@ -191,11 +191,17 @@ namespace Perimorph::Application
       << "Mode: " << result->mode() << ", "
       << Coupling::model_names()[static_cast<int>(parameters.coupling.model)]
       << ", coupling "
-      << Coupling::scheme_names()[static_cast<int>(parameters.coupling.scheme)]
-      << "\n  " << method.region.n_core << " nodes peridynamic, "
-      << method.region.n_blending << " blended, " << method.region.n_elements
-      << " finite elements only; " << counts.bonds << " bonds, "
-      << counts.active_cells << " active cells\n";
+      << Coupling::scheme_names()[static_cast<int>(parameters.coupling.scheme)];
+    if (counts.particles > 0 &&
+        parameters.coupling.model == Coupling::Model::correspondence)
+      log
+        << ", influence function "
+        << Peridynamics::influence_function_names()[static_cast<int>(
+             influence_function_of(parameters.coupling, nodal, method.region))];
+    log << "\n  " << method.region.n_core << " nodes peridynamic, "
+        << method.region.n_blending << " blended, " << method.region.n_elements
+        << " finite elements only; " << counts.bonds << " bonds, "
+        << counts.active_cells << " active cells\n";
     if (counts.dropped > 0)
       log << "  " << counts.dropped << " bonds would leave the body: dropped\n";
     log << "Affine patch test on this mesh: ghost force " << ghost

@@ -58,6 +58,7 @@ namespace Perimorph::Application
     , write_fields(texts.write_fields)
     , write_stress(texts.write_stress)
     , write_particles(texts.write_particles)
+    , write_virial_stress(texts.write_virial_stress)
   {
     const std::string stem =
       std::filesystem::path(parameter_file).stem().string();
@@ -189,12 +190,10 @@ namespace Perimorph::Application
       from_name<Coupling::Model>(texts.model, Coupling::model_names());
     coupling.scheme =
       from_name<Coupling::Scheme>(texts.coupling, Coupling::scheme_names());
-    coupling.influence =
-      Peridynamics::influence_function_from_name(texts.influence_function);
+    if (texts.influence_function != "automatic")
+      coupling.influence =
+        Peridynamics::influence_function_from_name(texts.influence_function);
     coupling.gamma = texts.stabilization;
-    // In 3D the bending fields are met in the least-squares sense only.
-    coupling.scale = dim == 2 ? Coupling::StabilizationScale::bending
-                              : Coupling::StabilizationScale::shear_modulus;
     if (texts.stabilization_scale != "automatic")
       coupling.scale =
         from_name<Coupling::StabilizationScale>(texts.stabilization_scale,
@@ -323,6 +322,13 @@ namespace Perimorph::Application
                            "elastic (small strain)",
                            "Bonds are a law of their own at finite strain; use "
                            "model = correspondence for other laws.");
+    if (write_virial_stress && coupling.model != Coupling::Model::bond_based)
+      errors.add_parameter(
+        "Output / virial stress",
+        "true with model = correspondence",
+        "false",
+        "It is the stress of bonds; families have the stress "
+        "of their material.");
     if (!bonds && !microelastic)
       return;
     const double allowed = Peridynamics::allowed_poissons_ratio(state);

@@ -31,6 +31,23 @@ namespace Perimorph::Application
           nodal[n][d] = values[dim * n + d];
       return nodal;
     }
+
+    /// A tensor without symmetry, by component: <name>_xy.
+    template <int dim>
+    void
+    add_components(const std::string                         &name,
+                   const std::vector<dealii::Tensor<2, dim>> &tensors,
+                   Output::Fields<dim>                       &fields)
+    {
+      for (int a = 0; a < dim; ++a)
+        for (int b = 0; b < dim; ++b)
+          {
+            std::vector<double> component;
+            for (const auto &tensor : tensors)
+              component.push_back(tensor[a][b]);
+            fields.add(name + "_" + "xyz"[a] + "xyz"[b], component);
+          }
+    }
   } // namespace
 
   template <int dim>
@@ -128,25 +145,21 @@ namespace Perimorph::Application
         if (parameters.finite_strain())
           {
             std::vector<dealii::SymmetricTensor<2, dim>> kirchhoff, strain;
-            std::vector<std::vector<double>>             piola(dim * dim);
+            std::vector<dealii::Tensor<2, dim>>          piola;
             for (const auto &stress : stresses)
               {
                 kirchhoff.emplace_back();
                 strain.emplace_back();
+                piola.emplace_back();
                 for (int a = 0; a < dim; ++a)
                   for (int b = 0; b < dim; ++b)
                     {
                       kirchhoff.back()[a][b] = stress.kirchhoff[a][b];
                       strain.back()[a][b]    = stress.logarithmic_strain[a][b];
-                      piola[dim * a + b].push_back(
-                        stress.first_piola_kirchhoff[a][b]);
+                      piola.back()[a][b] = stress.first_piola_kirchhoff[a][b];
                     }
               }
-            for (int a = 0; a < dim; ++a)
-              for (int b = 0; b < dim; ++b)
-                nodal_fields.add(std::string("first_piola_kirchhoff_") +
-                                   "xyz"[a] + "xyz"[b],
-                                 piola[dim * a + b]);
+            add_components("first_piola_kirchhoff", piola, nodal_fields);
             nodal_fields.add("kirchhoff_stress", kirchhoff);
             nodal_fields.add("logarithmic_strain", strain);
           }
@@ -179,6 +192,17 @@ namespace Perimorph::Application
     particle_fields.add("horizon", horizon);
     particle_fields.add("volume", volume);
     particle_fields.add("damage", damage);
+    if (parameters.write_virial_stress)
+      {
+        Fem::Vector complete_displacement(method.displacement);
+        complete_displacement.update_ghost_values();
+        const auto all =
+          method.problem->virial_stress(complete_displacement, method.region);
+        std::vector<dealii::Tensor<2, dim>> virial;
+        for (const unsigned int n : nodes)
+          virial.push_back(all[n]);
+        add_components("virial_stress", virial, particle_fields);
+      }
     Base::collectively(communicator, [&]() {
       fields->write_particles(step, time, nodes, particle_fields);
     });

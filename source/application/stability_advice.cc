@@ -97,12 +97,12 @@ namespace Perimorph::Application
       {
         // No element stands behind the bonds at the surface of the body.
         const bool alone = region.n_blending + region.n_elements == 0;
-        advice.add_if(shapes.aspect > 2.5,
+        advice.add_if(shapes.aspect > 2.3,
                       "bonds on cells with an aspect ratio of",
                       shapes.aspect,
                       "the stiffness may be indefinite and the result wrong, "
                       "above all in compression. Use cells with a ratio below "
-                      "2.5, or model = correspondence");
+                      "2.3, or model = correspondence");
         advice.add_if(finite_strain && alone && ratio > 2.5,
                       "bonds everywhere with a horizon ratio of",
                       ratio,
@@ -116,7 +116,7 @@ namespace Perimorph::Application
                   "the stabilisation makes coarse meshes too stiff in bending; "
                   "compare with a finer mesh");
     advice.add_if(dim == 3 && ratio < 2.5 &&
-                    parameters.influence ==
+                    influence_function_of(parameters, mesh, region) ==
                       Peridynamics::InfluenceFunction::cubic_spline,
                   "influence function cubic spline in 3D with a horizon ratio "
                   "of",

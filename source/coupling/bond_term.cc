@@ -115,6 +115,26 @@ namespace Perimorph::Coupling
   }
 
   template <int dim, Kinematics kinematics>
+  std::vector<Peridynamics::PairForce<dim>>
+  BondTerm<dim, kinematics>::pair_forces(
+    const Vector                  &displacement,
+    const Fem::NodePartition<dim> &partition) const
+  {
+    std::vector<Peridynamics::PairForce<dim>> pairs;
+    pairs.reserve(neighbor.size());
+    for (const Star &star : stars)
+      for (std::size_t b = star.begin; b < star.end; ++b)
+        pairs.push_back({partition.position(star.node),
+                         partition.position(neighbor[b]),
+                         Bond<kinematics>::force(
+                           stiffness[b],
+                           xi[b],
+                           this->value_at(displacement.begin(), neighbor[b]) -
+                             this->value_at(displacement.begin(), star.node))});
+    return pairs;
+  }
+
+  template <int dim, Kinematics kinematics>
   void
   BondTerm<dim, kinematics>::add_tangent_product(
     [[maybe_unused]] const Vector &displacement,

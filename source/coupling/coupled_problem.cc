@@ -4,6 +4,7 @@
 #include <perimorph/coupling/correspondence_term.h>
 #include <perimorph/coupling/coupled_problem.h>
 #include <perimorph/coupling/segment_piece_term.h>
+#include <perimorph/coupling/virial_field.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -27,6 +28,29 @@ namespace Perimorph::Coupling
                                                    "energy blending",
                                                    "force blending"};
     return names;
+  }
+
+  template <int dim>
+  Peridynamics::InfluenceFunction
+  influence_function_of(const CouplingParameters   &parameters,
+                        const Mesh::NodalMesh<dim> &mesh,
+                        const Mesh::RegionMap      &region)
+  {
+    if (parameters.influence)
+      return *parameters.influence;
+    if (dim == 3)
+      return Peridynamics::InfluenceFunction::gaussian;
+    double       sum         = 0.;
+    unsigned int n_particles = 0;
+    for (unsigned int n = 0; n < mesh.n_nodes(); ++n)
+      if (region.alpha[n] > 0.)
+        {
+          sum += region.horizon[n] / mesh.spacing[n];
+          ++n_particles;
+        }
+    return sum > 2.5 * n_particles
+             ? Peridynamics::InfluenceFunction::cubic_spline
+             : Peridynamics::InfluenceFunction::gaussian;
   }
 
   namespace
@@ -150,11 +174,13 @@ namespace Perimorph::Coupling
   {
     const auto      &nodal  = mesh.nodal();
     const bool       forces = parameters.scheme == Scheme::force_blending;
-    FamilyParameters options{parameters.influence,
-                             parameters.gamma,
-                             parameters.scale,
-                             {},
-                             progress};
+    FamilyParameters options{
+      influence_function_of(parameters, nodal, region),
+      parameters.gamma,
+      parameters.scale.value_or(dim == 2 ? StabilizationScale::bending
+                                         : StabilizationScale::shear_modulus),
+      {},
+      progress};
     for (const auto &law : materials.laws)
       options.constants.push_back(constants_at_rest(*law));
 
@@ -380,6 +406,21 @@ namespace Perimorph::Coupling
   }
 
   template <int dim>
+  std::vector<dealii::Tensor<2, dim>>
+  CoupledProblem<dim>::virial_stress(const Vector          &displacement,
+                                     const Mesh::RegionMap &region) const
+  {
+    for (const auto &term : contributions)
+      if (const auto bonds = dynamic_cast<const BondForces<dim> *>(term.get()))
+        return nodal_virial_stress(
+          mesh.nodal(),
+          region,
+          bonds->pair_forces(displacement, *node_partition),
+          mesh.communicator());
+    return {};
+  }
+
+  template <int dim>
   double
   CoupledProblem<dim>::ghost_force(
     const std::function<bool(unsigned int)> &excluded) const
@@ -451,6 +492,14 @@ namespace Perimorph::Coupling
     return total;
   }
 
+  template Peridynamics::InfluenceFunction
+  influence_function_of<2>(const CouplingParameters &,
+                           const Mesh::NodalMesh<2> &,
+                           const Mesh::RegionMap &);
+  template Peridynamics::InfluenceFunction
+  influence_function_of<3>(const CouplingParameters &,
+                           const Mesh::NodalMesh<3> &,
+                           const Mesh::RegionMap &);
   template class CoupledProblem<2>;
   template class CoupledProblem<3>;
 } // namespace Perimorph::Coupling

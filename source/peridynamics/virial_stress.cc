@@ -7,17 +7,16 @@
 
 namespace Perimorph::Peridynamics
 {
+  template <int dim>
+  double
+  ball_volume(const double radius)
+  {
+    return dim == 2 ? dealii::numbers::PI * radius * radius
+                    : 4. / 3. * dealii::numbers::PI * radius * radius * radius;
+  }
+
   namespace
   {
-    template <int dim>
-    double
-    ball_volume(const double radius)
-    {
-      return dim == 2
-               ? dealii::numbers::PI * radius * radius
-               : 4. / 3. * dealii::numbers::PI * radius * radius * radius;
-    }
-
     /// Lattice points on the sphere itself are inside.
     constexpr double rim_tolerance = 1e-9;
   } // namespace
@@ -69,6 +68,10 @@ namespace Perimorph::Peridynamics
     return sum / ball_volume<dim>(radius);
   }
 
+  template double
+  ball_volume<2>(double);
+  template double
+  ball_volume<3>(double);
   template double
   fraction_in_ball<2>(const dealii::Point<2> &,
                       const dealii::Point<2> &,

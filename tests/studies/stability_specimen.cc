@@ -138,7 +138,6 @@ namespace Perimorph::Studies
                                                  : Coupling::Model::correspondence;
     parameters.influence = combination.influence;
     parameters.gamma     = combination.gamma;
-    parameters.scale     = Coupling::StabilizationScale::shear_modulus;
     problem = std::make_unique<Coupling::CoupledProblem<dim>>(*distributed_mesh,
                                                               region,
                                                               materials,

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace Perimorph::Studies
@@ -28,11 +29,11 @@ namespace Perimorph::Studies
   /// One point of the study.
   struct Combination
   {
-    double                          horizon_ratio  = 2.;   ///< m [-]
-    double                          perturbation   = 0.2;  ///< of the spacing
-    double                          poissons_ratio = 0.25; ///< nu [-]
-    Peridynamics::InfluenceFunction influence =
-      Peridynamics::InfluenceFunction::gaussian;
+    double horizon_ratio  = 2.;   ///< m [-]
+    double perturbation   = 0.2;  ///< of the spacing
+    double poissons_ratio = 0.25; ///< nu [-]
+    /// None: automatic.
+    std::optional<Peridynamics::InfluenceFunction> influence;
     double aspect  = 1.; ///< length of the cells over their width [-]
     double grading = 1.; ///< last over first cell along each axis [-]
     double gamma   = 1.; ///< stabilisation [-]

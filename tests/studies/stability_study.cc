@@ -26,6 +26,7 @@ namespace Perimorph::Studies
   namespace
   {
     using Peridynamics::InfluenceFunction;
+    using Influence = decltype(Combination::influence);
 
     /// Combinations of one sweep.
     struct Sweep
@@ -110,13 +111,13 @@ namespace Perimorph::Studies
         sweep<double>("nu",
                       &C::poissons_ratio,
                       {-.5, 0., .25, .33, .45, .49, .499}),
-        sweep<InfluenceFunction>("influence",
-                                 &C::influence,
-                                 {InfluenceFunction::constant,
-                                  InfluenceFunction::triangular,
-                                  InfluenceFunction::cubic_spline,
-                                  InfluenceFunction::gaussian},
-                                 false),
+        sweep<Influence>("influence",
+                         &C::influence,
+                         {InfluenceFunction::constant,
+                          InfluenceFunction::triangular,
+                          InfluenceFunction::cubic_spline,
+                          InfluenceFunction::gaussian},
+                         false),
         sweep<double>("aspect", &C::aspect, {1., 2., 4., 8.}),
         sweep<double>("grading", &C::grading, {1., 2., 4., 8.}),
         sweep<double>("gamma",
@@ -154,7 +155,7 @@ namespace Perimorph::Studies
       // pairs would take too long in 3D
       if (dim == 3)
         list.erase(list.begin() + 7, list.end());
-      list.push_back(random_sweep(dim == 2 ? 24 : 12));
+      list.push_back(random_sweep(dim == 2 ? 48 : 24));
       return list;
     }
 
@@ -266,8 +267,10 @@ namespace Perimorph::Studies
       std::ostringstream row;
       row << combination.horizon_ratio << ',' << combination.perturbation << ','
           << combination.poissons_ratio << ','
-          << Peridynamics::influence_function_names()[static_cast<int>(
-               combination.influence)]
+          << (combination.influence
+                ? Peridynamics::influence_function_names()[static_cast<int>(
+                    *combination.influence)]
+                : "automatic")
           << ',' << combination.aspect << ',' << combination.grading << ','
           << combination.gamma;
       return row.str();

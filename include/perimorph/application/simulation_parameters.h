@@ -35,7 +35,7 @@ namespace Perimorph::Application
 
     std::string model = "correspondence", around, core_size = "2 horizons",
                 blending_width = "automatic", blending_function = "cubic",
-                influence_function = "gaussian", coupling = "consistent",
+                influence_function = "automatic", coupling = "consistent",
                 stabilization_scale = "automatic";
     double horizon_ratio = 2., horizon = 0., stabilization = 1.;
 
@@ -62,7 +62,8 @@ namespace Perimorph::Application
     std::string reference_values, reference_displacement, reference_data,
       reference_source;
 
-    bool write_fields = true, write_stress = true, write_particles = true;
+    bool write_fields = true, write_stress = true, write_particles = true,
+         write_virial_stress = false;
   };
 
   /// Elastic constants of one material, before laws are made of them.
@@ -128,7 +129,7 @@ namespace Perimorph::Application
     bool                                        has_reference_displacement;
     std::vector<ReferenceData>                  reference_data;
 
-    bool write_fields, write_stress, write_particles;
+    bool write_fields, write_stress, write_particles, write_virial_stress;
 
     /// True if the law is not that of small strain.
     bool

@@ -3,6 +3,7 @@
 #include <perimorph/coupling/bond_set.h>
 #include <perimorph/fem/contribution.h>
 #include <perimorph/mesh/cell_geometry.h>
+#include <perimorph/peridynamics/virial_stress.h>
 
 namespace Perimorph::Coupling
 {
@@ -12,9 +13,22 @@ namespace Perimorph::Coupling
     finite_strain ///< k (|xi + eta| - |xi|)^2 / 2 per bond
   };
 
+  /// Who can say what its bonds pull with.
+  template <int dim>
+  class BondForces
+  {
+  public:
+    virtual ~BondForces() = default;
+
+    /// All bonds of this rank.
+    virtual std::vector<Peridynamics::PairForce<dim>>
+    pair_forces(const Fem::Vector             &displacement,
+                const Fem::NodePartition<dim> &partition) const = 0;
+  };
+
   /// Energy of the bonds of this rank. One block per node that owns bonds.
   template <int dim, Kinematics kinematics = Kinematics::small_strain>
-  class BondTerm : public Fem::Contribution<dim>
+  class BondTerm : public Fem::Contribution<dim>, public BondForces<dim>
   {
   public:
     using Vector = Fem::Vector;
@@ -42,6 +56,9 @@ namespace Perimorph::Coupling
     block_tangent(unsigned int                block,
                   const Vector               &displacement,
                   dealii::FullMatrix<double> &matrix) const override;
+    std::vector<Peridynamics::PairForce<dim>>
+    pair_forces(const Vector                  &displacement,
+                const Fem::NodePartition<dim> &partition) const override;
 
   private:
     struct Star

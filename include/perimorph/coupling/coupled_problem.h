@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,13 +34,25 @@ namespace Perimorph::Coupling
 
   struct CouplingParameters
   {
-    Model                           model  = Model::correspondence;
-    Scheme                          scheme = Scheme::consistent;
-    Peridynamics::InfluenceFunction influence =
-      Peridynamics::InfluenceFunction::gaussian;
-    double             gamma = 1.;
-    StabilizationScale scale = StabilizationScale::bending;
+    Model  model  = Model::correspondence;
+    Scheme scheme = Scheme::consistent;
+    /// None: see influence_function_of().
+    std::optional<Peridynamics::InfluenceFunction> influence = std::nullopt;
+    double                                         gamma     = 1.;
+    /// None: bending in 2D; in 3D, where the bending fields are met in the
+    /// least-squares sense only, the shear modulus.
+    std::optional<StabilizationScale> scale = std::nullopt;
   };
+
+  /// The influence function as given. Otherwise gaussian, or in 2D, above a
+  /// mean horizon ratio of 2.5, cubic spline (numerics.md, D4): wide families
+  /// bend too softly where distant nodes weigh much. In 3D, with the other
+  /// scale of the stabilisation, the cubic spline is too stiff (doc/stability).
+  template <int dim>
+  Peridynamics::InfluenceFunction
+  influence_function_of(const CouplingParameters   &parameters,
+                        const Mesh::NodalMesh<dim> &mesh,
+                        const Mesh::RegionMap      &region);
 
   /// The materials of the body: laws for elements and families, constants for
   /// bonds; index = NodalMesh::cell_material.
@@ -118,6 +131,12 @@ namespace Perimorph::Coupling
     /// Strain energy of all ranks.
     double
     strain_energy(const Vector &displacement) const;
+
+    /// nodal_virial_stress() of the bonds; empty without bonds.
+    /// @param displacement  ghosts up to date
+    std::vector<dealii::Tensor<2, dim>>
+    virial_stress(const Vector          &displacement,
+                  const Mesh::RegionMap &region) const;
 
     /// The affine patch test on this mesh: largest difference between internal
     /// forces and finite-element forces over unit strains (strains of 0.1 if

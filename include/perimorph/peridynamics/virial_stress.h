@@ -27,6 +27,11 @@ namespace Perimorph::Peridynamics
     both_ends_in_ball
   };
 
+  /// Area of the disc in 2D.
+  template <int dim>
+  double
+  ball_volume(double radius);
+
   /// Part of the straight segment inside the ball, in [0, 1].
   template <int dim>
   double
