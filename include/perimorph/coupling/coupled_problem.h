@@ -41,7 +41,8 @@ namespace Perimorph::Coupling
     double                                         gamma     = 1.;
     /// None: bending in 2D; in 3D, where the bending fields are met in the
     /// least-squares sense only, the shear modulus.
-    std::optional<StabilizationScale> scale = std::nullopt;
+    std::optional<StabilizationScale> scale      = std::nullopt;
+    CrackRule                         crack_rule = CrackRule::consistent;
   };
 
   /// The influence function as given. Otherwise gaussian, or in 2D, above a
@@ -74,12 +75,14 @@ namespace Perimorph::Coupling
     using Progress = std::function<void(std::size_t, std::size_t)>;
 
     /// @param more_nodes  nodes that every rank must see (constraints)
+    /// @param cracks      only needed by the constructor
     CoupledProblem(const Mesh::DistributedMesh<dim> &mesh,
                    const Mesh::RegionMap            &region,
                    const BodyMaterials<dim>         &materials,
                    const CouplingParameters         &parameters,
                    const Progress                   &progress   = {},
-                   std::vector<unsigned int>         more_nodes = {});
+                   std::vector<unsigned int>         more_nodes = {},
+                   const Bonds::CrackSet<dim>       &cracks     = {});
 
     const Fem::NodePartition<dim> &
     partition() const
@@ -141,6 +144,9 @@ namespace Perimorph::Coupling
     /// The affine patch test on this mesh: largest difference between internal
     /// forces and finite-element forces over unit strains (strains of 0.1 if
     /// the problem is not linear), relative to |stress| spacing^(dim - 1).
+    /// Nodes whose forces cracks change count with their residual of the
+    /// consistency condition, which bounds them for every stress that leaves
+    /// the crack free.
     /// @param excluded  degrees of freedom that do not count (Dirichlet)
     double
     ghost_force(const std::function<bool(unsigned int)> &excluded) const;
@@ -157,6 +163,13 @@ namespace Perimorph::Coupling
     Counts
     counts() const;
 
+    /// What cracks did; zeros without cracks.
+    const CrackReport &
+    crack_report() const
+    {
+      return cracked;
+    }
+
   private:
     /// @param needed  nodes that families or bonds of this rank touch
     void
@@ -169,9 +182,10 @@ namespace Perimorph::Coupling
               const std::vector<double> &element_weight,
               std::unique_ptr<Term>      particles);
     void
-    make_correspondence(const Mesh::RegionMap    &region,
-                        const CouplingParameters &parameters,
-                        const Progress           &progress);
+    make_correspondence(const Mesh::RegionMap      &region,
+                        const CouplingParameters   &parameters,
+                        const Bonds::CrackSet<dim> &cracks,
+                        const Progress             &progress);
     void
     make_bonds(const Mesh::RegionMap    &region,
                const CouplingParameters &parameters,
@@ -185,5 +199,6 @@ namespace Perimorph::Coupling
     std::vector<std::unique_ptr<Term>>       contributions;
     std::vector<const Term *>                families;
     Counts                                   local_counts;
+    CrackReport                              cracked;
   };
 } // namespace Perimorph::Coupling
