@@ -155,6 +155,22 @@ namespace Perimorph::Application
       choice({"automatic", "bending", "shear modulus"}));
     prm.leave_subsection();
 
+    prm.enter_subsection("Cracks");
+    prm.add_parameter("pre-cracks",
+                      pre_cracks,
+                      "Cracks that are there from the start, not meshed: edge: "
+                      "0 0 to 0.5 0; bent: 1 0 to 1 0.2 to 1.1 0.3. In 3D the "
+                      "corners of flat convex polygons. An end at the surface "
+                      "opens it. Peridynamics is placed around them.",
+                      Anything());
+    prm.add_parameter(
+      "treatment",
+      crack_treatment,
+      "consistent: cracks are free surfaces to round-off. shape tensor: bonds "
+      "that cross are left out, nothing more; for comparison.",
+      choice({"consistent", "shape tensor"}));
+    prm.leave_subsection();
+
     prm.enter_subsection("Boundary conditions");
     prm.add_parameter("symmetry",
                       symmetry,

@@ -132,7 +132,8 @@ namespace Perimorph::Application
         materials,
         parameters.coupling,
         report,
-        supports->coupled_nodes());
+        supports->coupled_nodes(),
+        mode == Mesh::Mode::finite_elements ? Bonds::CrackSet<dim>() : cracks);
     }
     method.equilibrium = std::make_unique<Solvers::Equilibrium<dim>>(
       *mesh,

@@ -1,3 +1,4 @@
+#include <perimorph/application/crack_setup.h>
 #include <perimorph/application/simulation.h>
 #include <perimorph/application/stability_advice.h>
 #include <perimorph/base/log.h>
@@ -21,7 +22,9 @@ namespace Perimorph::Application
     errors.collect([&]() { assign_materials(); });
     errors.collect([&]() {
       const auto region_timer = timing.scope("regions");
-      region                  = make_region_map(*mesh, parameters.region);
+      place_cracks();
+      region = make_region_map(*mesh, parameters.region);
+      check_cracks();
     });
     errors.collect([&]() {
       supports =
@@ -70,6 +73,29 @@ namespace Perimorph::Application
                 "boundary ('traction').";
         log.warning(text.str());
       }
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::place_cracks()
+  {
+    if (parameters.pre_cracks.empty())
+      return;
+    cracks = make_cracks(mesh->nodal(), parameters.pre_cracks);
+    for (const auto &feature : crack_features(cracks))
+      parameters.region.features.push_back(feature);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::check_cracks() const
+  {
+    if (cracks.empty() || parameters.region.mode == Mesh::Mode::finite_elements)
+      return;
+    std::vector<std::string> names;
+    for (const auto &line : parameters.pre_cracks)
+      names.push_back(line.name);
+    check_cracks_in_core(mesh->nodal(), region, cracks, names);
   }
 
   template <int dim>

@@ -1,5 +1,6 @@
 #include <perimorph/base/exact_orientation.h>
 #include <perimorph/bonds/crack_set.h>
+#include <perimorph/mesh/feature_distance.h>
 
 #include <deal.II/numerics/rtree.h>
 
@@ -11,50 +12,17 @@ namespace Perimorph::Bonds
 {
   namespace
   {
+    template <int dim>
     double
-    distance_to_segment(const dealii::Point<2>                &point,
-                        const std::array<dealii::Point<2>, 2> &ends)
+    distance_to_facet(const dealii::Point<dim> &point,
+                      const CrackFacet<dim>    &facet)
     {
-      const dealii::Tensor<1, 2> along  = ends[1] - ends[0];
-      const double               square = along.norm_square();
-      const double               s =
-        square > 0. ? std::clamp((point - ends[0]) * along / square, 0., 1.)
-                                  : 0.;
-      return (point - ends[0] - s * along).norm();
-    }
-
-    double
-    distance_to_segment(const dealii::Point<3> &point,
-                        const dealii::Point<3> &begin,
-                        const dealii::Point<3> &end)
-    {
-      const dealii::Tensor<1, 3> along = end - begin;
-      const double               s =
-        std::clamp((point - begin) * along / along.norm_square(), 0., 1.);
-      return (point - begin - s * along).norm();
-    }
-
-    double
-    distance_to_facet(const dealii::Point<2> &point, const CrackFacet<2> &facet)
-    {
-      return distance_to_segment(point, facet.corners);
-    }
-
-    double
-    distance_to_facet(const dealii::Point<3> &point, const CrackFacet<3> &facet)
-    {
-      const auto  normal = facet.normal();
-      const auto &c      = facet.corners;
-      bool        inside = true;
-      double      result = std::numeric_limits<double>::infinity();
-      for (unsigned int k = 0; k < 3; ++k)
-        {
-          const auto &begin = c[k], &end = c[(k + 1) % 3];
-          if (cross_product_3d(end - begin, point - begin) * normal < 0.)
-            inside = false;
-          result = std::min(result, distance_to_segment(point, begin, end));
-        }
-      return inside ? std::abs((point - c[0]) * normal) : result;
+      const auto &c = facet.corners;
+      if constexpr (dim == 2)
+        return point.distance(Mesh::closest_on_segment(point, c[0], c[1]));
+      else
+        return point.distance(
+          Mesh::closest_on_triangle(point, c[0], c[1], c[2]));
     }
   } // namespace
 

@@ -245,6 +245,16 @@ namespace Perimorph::Mesh
               point - ((point - base) * normal / normal.norm_square()) * normal;
             return {p.distance(point), p};
           }
+        case FeatureKind::triangle:
+          if constexpr (dim == 3)
+            {
+              const auto p = closest_on_triangle(point,
+                                                 read_point<dim>(x, 0),
+                                                 read_point<dim>(x, 3),
+                                                 read_point<dim>(x, 6));
+              return {p.distance(point), p};
+            }
+          break;
         case FeatureKind::box:
           {
             const auto         lower = read_point<dim>(x, 0);

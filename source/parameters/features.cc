@@ -13,12 +13,13 @@ namespace Perimorph::Parameters
 {
   namespace
   {
-    const std::array<std::pair<FeatureKind, const char *>, 7> feature_words = {
+    const std::array<std::pair<FeatureKind, const char *>, 8> feature_words = {
       {{FeatureKind::boundary, "boundary"},
        {FeatureKind::volume, "volume"},
        {FeatureKind::point, "point"},
        {FeatureKind::segment, "segment"},
        {FeatureKind::plane, "plane"},
+       {FeatureKind::triangle, "triangle"},
        {FeatureKind::box, "box"},
        {FeatureKind::ball, "ball"}}};
 
@@ -69,6 +70,8 @@ namespace Perimorph::Parameters
             return word + (plane_case ? "x0 y0 x1 y1" : "x0 y0 z0 x1 y1 z1");
           case FeatureKind::plane:
             return word + (plane_case ? "px py nx ny" : "px py pz nx ny nz");
+          case FeatureKind::triangle:
+            return word + "x0 y0 z0 x1 y1 z1 x2 y2 z2";
           case FeatureKind::ball:
             return word + (plane_case ? "cx cy radius" : "cx cy cz radius");
         }
@@ -90,6 +93,8 @@ namespace Perimorph::Parameters
           case FeatureKind::plane:
           case FeatureKind::box:
             return 2 * dim;
+          case FeatureKind::triangle:
+            return 9;
           case FeatureKind::ball:
             return dim + 1;
         }
@@ -110,6 +115,8 @@ namespace Perimorph::Parameters
             return number == 0.;
           }))
         return "a normal that is not zero";
+      if (feature.kind == FeatureKind::triangle && dim == 2)
+        return "a triangle in 3D only";
       if (feature.kind == FeatureKind::segment &&
           std::equal(middle, numbers.end(), numbers.begin()))
         return "two different ends";

@@ -65,6 +65,11 @@ namespace Perimorph::Application
     read_mesh();
     void
     assign_materials();
+    /// Makes the cracks and places peridynamics around them.
+    void
+    place_cracks();
+    void
+    check_cracks() const;
     void
     hold_rigid_motion();
     void
@@ -133,6 +138,7 @@ namespace Perimorph::Application
 
     std::unique_ptr<Mesh::DistributedMesh<dim>> mesh;
     Coupling::BodyMaterials<dim>                materials;
+    Bonds::CrackSet<dim>                        cracks;
     Mesh::RegionMap                             region;
     std::unique_ptr<Fem::Supports<dim>>         supports;
     std::unique_ptr<Fem::Loads<dim>>            loads;

@@ -6,6 +6,7 @@
 #include <perimorph/materials/linear_elastic.h>
 #include <perimorph/mesh/region_map.h>
 #include <perimorph/parameters/lists.h>
+#include <perimorph/parameters/polylines.h>
 #include <perimorph/parameters/probes.h>
 #include <perimorph/solvers/linear_solver.h>
 #include <perimorph/solvers/load_stepping.h>
@@ -38,6 +39,8 @@ namespace Perimorph::Application
                 influence_function = "automatic", coupling = "consistent",
                 stabilization_scale = "automatic";
     double horizon_ratio = 2., horizon = 0., stabilization = 1.;
+
+    std::string pre_cracks, crack_treatment = "consistent";
 
     std::string symmetry, displacement, mean_displacement, rigid_plate,
       traction, pressure, follower_pressure, body_force, point_displacement,
@@ -101,9 +104,10 @@ namespace Perimorph::Application
     MaterialConstants                        material;
     std::map<std::string, MaterialConstants> volume_materials;
 
-    Mesh::RegionParameters       region;
-    Coupling::CouplingParameters coupling;
-    Fem::BoundaryConditions<dim> boundary_conditions;
+    Mesh::RegionParameters            region;
+    Coupling::CouplingParameters      coupling;
+    std::vector<Parameters::Polyline> pre_cracks;
+    Fem::BoundaryConditions<dim>      boundary_conditions;
 
     unsigned int                    n_steps;
     double                          end_time;

@@ -18,8 +18,8 @@ namespace Perimorph::Mesh
   };
 
   /// Distance from points to one feature: a named boundary or volume of the
-  /// mesh, a point, segment, plane, box or ball. In a volume, box or ball it is
-  /// zero.
+  /// mesh, a point, segment, plane, triangle, box or ball. In a volume, box or
+  /// ball it is zero.
   template <int dim>
   class FeatureDistance
   {

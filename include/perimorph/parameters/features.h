@@ -14,6 +14,7 @@ namespace Perimorph::Parameters
     point,
     segment,
     plane,
+    triangle, ///< 3D
     box,
     ball
   };
@@ -24,8 +25,9 @@ namespace Perimorph::Parameters
     FeatureKind kind;
     /// of a boundary or volume
     std::string name;
-    /// point: x; segment: x0, x1; plane: point, normal; box: lower, upper
-    /// corner; ball: centre, radius (points have dim numbers each)
+    /// point: x; segment: x0, x1; plane: point, normal; triangle: three
+    /// corners; box: lower, upper corner; ball: centre, radius (points have dim
+    /// numbers each)
     std::vector<double> numbers;
   };
 

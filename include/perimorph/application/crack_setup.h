@@ -1,0 +1,34 @@
+#pragma once
+
+#include <perimorph/bonds/crack_set.h>
+#include <perimorph/mesh/distributed_mesh.h>
+#include <perimorph/mesh/region_map.h>
+#include <perimorph/parameters/polylines.h>
+
+namespace Perimorph::Application
+{
+  /// Facets of pre-cracks: the pieces of lines in 2D, fans of triangles in 3D.
+  /// Open ends of lines that lie on the surface of the body (within a
+  /// thousandth of the spacing) go on for a tenth of the spacing, so that they
+  /// open it.
+  /// @throws Base::InputError  a crack that is nowhere in the body
+  template <int dim>
+  Bonds::CrackSet<dim>
+  make_cracks(const Mesh::NodalMesh<dim>              &mesh,
+              const std::vector<Parameters::Polyline> &lines);
+
+  /// What peridynamics is placed around for the cracks.
+  template <int dim>
+  std::vector<Parameters::Feature>
+  crack_features(const Bonds::CrackSet<dim> &cracks);
+
+  /// Cracks must run where peridynamics carries all.
+  /// @param names  of the cracks
+  /// @throws Base::InputError  a crack that leaves the peridynamic core
+  template <int dim>
+  void
+  check_cracks_in_core(const Mesh::NodalMesh<dim>     &mesh,
+                       const Mesh::RegionMap          &region,
+                       const Bonds::CrackSet<dim>     &cracks,
+                       const std::vector<std::string> &names);
+} // namespace Perimorph::Application

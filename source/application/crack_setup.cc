@@ -1,0 +1,147 @@
+#include <perimorph/application/crack_setup.h>
+#include <perimorph/base/exceptions.h>
+#include <perimorph/bonds/crack_points.h>
+#include <perimorph/mesh/feature_distance.h>
+
+#include <set>
+#include <sstream>
+
+namespace Perimorph::Application
+{
+  namespace
+  {
+    template <int dim>
+    dealii::Point<dim>
+    to_point(const std::vector<double> &numbers)
+    {
+      dealii::Point<dim> point;
+      for (int d = 0; d < dim; ++d)
+        point[d] = numbers[d];
+      return point;
+    }
+
+    /// Moves an end on the surface outward along the crack.
+    void
+    open_surface(const Mesh::NodalMesh<2> &mesh,
+                 dealii::Point<2>         &end,
+                 const dealii::Point<2>   &before)
+    {
+      for (const auto &face : mesh.boundary_faces)
+        {
+          const auto  &a = mesh.nodes[face.nodes[0]];
+          const auto  &b = mesh.nodes[face.nodes[1]];
+          const double h = a.distance(b);
+          if (end.distance(Mesh::closest_on_segment(end, a, b)) < 1e-3 * h)
+            {
+              const auto along = end - before;
+              end += 0.1 * h * along / along.norm();
+              return;
+            }
+        }
+    }
+  } // namespace
+
+  template <int dim>
+  Bonds::CrackSet<dim>
+  make_cracks(const Mesh::NodalMesh<dim>              &mesh,
+              const std::vector<Parameters::Polyline> &lines)
+  {
+    std::vector<Bonds::CrackFacet<dim>> facets;
+    for (unsigned int crack = 0; crack < lines.size(); ++crack)
+      {
+        std::vector<dealii::Point<dim>> points;
+        for (const auto &numbers : lines[crack].points)
+          points.push_back(to_point<dim>(numbers));
+        if constexpr (dim == 2)
+          {
+            // A closed line has no ends.
+            const auto n = points.size();
+            if (points.front() != points.back())
+              {
+                const auto first = points[0];
+                open_surface(mesh, points[0], points[1]);
+                open_surface(mesh,
+                             points[n - 1],
+                             n == 2 ? first : points[n - 2]);
+              }
+            for (unsigned int k = 0; k + 1 < n; ++k)
+              facets.push_back({{{points[k], points[k + 1]}}, crack, 0});
+          }
+        else
+          for (unsigned int k = 1; k + 1 < points.size(); ++k)
+            facets.push_back(
+              {{{points[0], points[k], points[k + 1]}}, crack, 0});
+      }
+    Bonds::CrackSet<dim>   cracks(facets);
+    std::set<unsigned int> inside;
+    for (const auto &point : Bonds::crack_points(mesh, cracks))
+      inside.insert(facets[point.facet].crack);
+    Base::InputErrorCollector errors;
+    for (unsigned int crack = 0; crack < lines.size(); ++crack)
+      if (inside.count(crack) == 0)
+        errors.add_parameter("Cracks / pre-cracks",
+                             "'" + lines[crack].name + "' outside of the body",
+                             "cracks in the body");
+    errors.throw_if_any();
+    return cracks;
+  }
+
+  template <int dim>
+  std::vector<Parameters::Feature>
+  crack_features(const Bonds::CrackSet<dim> &cracks)
+  {
+    std::vector<Parameters::Feature> features;
+    for (const auto &facet : cracks.facets())
+      {
+        Parameters::Feature feature;
+        feature.kind = dim == 2 ? Parameters::FeatureKind::segment
+                                : Parameters::FeatureKind::triangle;
+        for (const auto &corner : facet.corners)
+          for (int d = 0; d < dim; ++d)
+            feature.numbers.push_back(corner[d]);
+        features.push_back(feature);
+      }
+    return features;
+  }
+
+  template <int dim>
+  void
+  check_cracks_in_core(const Mesh::NodalMesh<dim>     &mesh,
+                       const Mesh::RegionMap          &region,
+                       const Bonds::CrackSet<dim>     &cracks,
+                       const std::vector<std::string> &names)
+  {
+    std::set<unsigned int> reported;
+    for (const auto &point : Bonds::crack_points(mesh, cracks))
+      for (const unsigned int n : mesh.cells[point.cell])
+        {
+          const unsigned int crack = cracks.facets()[point.facet].crack;
+          if (region.alpha[n] == 1. || !reported.insert(crack).second)
+            continue;
+          std::ostringstream found;
+          found << "'" << names[crack] << "' at (" << point.position
+                << ") where elements carry a part (alpha = " << region.alpha[n]
+                << ")";
+          throw Base::InputError(
+            Base::InputMessage{"parameter 'Cracks / pre-cracks'",
+                               found.str(),
+                               "cracks in the peridynamic core",
+                               "Use a larger 'Peridynamics / core size'."});
+        }
+  }
+
+#define PERIMORPH_INSTANTIATE(dim)                                      \
+  template Bonds::CrackSet<dim> make_cracks<dim>(                       \
+    const Mesh::NodalMesh<dim> &,                                       \
+    const std::vector<Parameters::Polyline> &);                         \
+  template std::vector<Parameters::Feature> crack_features<dim>(        \
+    const Bonds::CrackSet<dim> &);                                      \
+  template void check_cracks_in_core<dim>(const Mesh::NodalMesh<dim> &, \
+                                          const Mesh::RegionMap &,      \
+                                          const Bonds::CrackSet<dim> &, \
+                                          const std::vector<std::string> &);
+
+  PERIMORPH_INSTANTIATE(2)
+  PERIMORPH_INSTANTIATE(3)
+#undef PERIMORPH_INSTANTIATE
+} // namespace Perimorph::Application
