@@ -1,0 +1,141 @@
+#include <perimorph/fracture/domain_integral.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <array>
+
+namespace Perimorph::Fracture
+{
+  double
+  Annulus::weight(const double distance) const
+  {
+    return std::clamp((outer - distance) / (outer - inner), 0., 1.);
+  }
+
+  std::vector<Annulus>
+  default_annuli(const double crack_length,
+                 const double free_distance,
+                 const double horizon,
+                 const double spacing)
+  {
+    const double room   = 0.9 * free_distance;
+    const double length = std::min(crack_length, room);
+    // Families closer to the tip reach around it.
+    const double         smallest = horizon + spacing;
+    const Annulus        wanted[] = {{0.3 * length, 0.8 * length},
+                                     {0.5 * length, length}};
+    std::vector<Annulus> annuli;
+    for (const auto &[inner, outer] : wanted)
+      {
+        Annulus annulus;
+        annulus.inner = std::max(inner, smallest);
+        annulus.outer =
+          std::min(room, std::max(outer, annulus.inner + 3. * spacing));
+        if (annulus.outer - annulus.inner >= 2. * spacing &&
+            (annuli.empty() || annuli[0].outer < annulus.outer))
+          annuli.push_back(annulus);
+      }
+    return annuli;
+  }
+
+  std::vector<double>
+  annulus_weights(const Mesh::NodalMesh<2> &mesh,
+                  const dealii::Point<2>   &tip,
+                  const Annulus            &annulus)
+  {
+    std::vector<double> q;
+    q.reserve(mesh.n_nodes());
+    for (const auto &node : mesh.nodes)
+      q.push_back(annulus.weight(node.distance(tip)));
+    return q;
+  }
+
+  template <int dim>
+  FractureQuantities
+  fracture_quantities(const StressPointSet<dim>    &set,
+                      const dealii::Tensor<1, dim> &direction,
+                      const FrameField<dim>        &axes,
+                      const double                  area,
+                      const NearTipConstants       &constants,
+                      const MPI_Comm                communicator)
+  {
+    constexpr std::array<NearTipField, 4> fields = {
+      {NearTipField::opening,
+       NearTipField::sliding,
+       dim == 3 ? NearTipField::tearing : NearTipField::point_force,
+       NearTipField::opening}};
+    std::array<double, 4> sums = {}; // three interactions, J
+    for (const auto &point : set.points)
+      {
+        if (point.q_gradient.norm_square() == 0.)
+          continue;
+        const auto &H       = point.displacement_gradient;
+        const auto &P       = point.first_piola_kirchhoff;
+        const auto &slope   = point.q_gradient;
+        const auto  u_along = H * direction;
+        const auto  flux    = P * slope;
+        const auto  forward = slope * direction;
+        sums[3] +=
+          point.volume * (u_along * flux - point.energy_density * forward);
+        const auto frame = axes(point.x);
+        for (unsigned int k = 0; k < 3; ++k)
+          {
+            const auto other =
+              near_tip_state(fields[k], constants, frame, point.x);
+            sums[k] += point.volume *
+                       (other.gradient * direction * flux +
+                        u_along * (other.stress * slope) -
+                        dealii::scalar_product(P, other.gradient) * forward);
+          }
+      }
+    std::array<double, 4> all;
+    dealii::Utilities::MPI::sum(
+      dealii::ArrayView<const double>(sums.data(), sums.size()),
+      communicator,
+      dealii::ArrayView<double>(all.data(), all.size()));
+    for (auto &sum : all)
+      sum /= area;
+
+    const double       modulus = constants.plane_modulus();
+    FractureQuantities result;
+    result.J    = all[3];
+    result.K_I  = 0.5 * modulus * all[0];
+    result.K_II = 0.5 * modulus * all[1];
+    if (dim == 3)
+      result.K_III = constants.shear_modulus * all[2];
+    else
+      result.T_stress = modulus * all[2];
+    return result;
+  }
+
+  FractureQuantities
+  fracture_quantities(StressPointSet<2>        &set,
+                      const Mesh::NodalMesh<2> &mesh,
+                      const TipFrame<2>        &tip,
+                      const Annulus            &annulus,
+                      const NearTipConstants   &constants,
+                      const MPI_Comm            communicator)
+  {
+    set.differentiate(annulus_weights(mesh, tip.origin, annulus));
+    return fracture_quantities<2>(
+      set,
+      tip.axes[0],
+      [&](const dealii::Point<2> &) { return tip; },
+      1.,
+      constants,
+      communicator);
+  }
+
+#define INSTANTIATE(dim)                                \
+  template FractureQuantities fracture_quantities<dim>( \
+    const StressPointSet<dim> &,                        \
+    const dealii::Tensor<1, dim> &,                     \
+    const FrameField<dim> &,                            \
+    double,                                             \
+    const NearTipConstants &,                           \
+    MPI_Comm);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Perimorph::Fracture

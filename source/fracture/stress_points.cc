@@ -1,0 +1,324 @@
+#include <perimorph/base/exceptions.h>
+#include <perimorph/fracture/stress_points.h>
+#include <perimorph/mesh/cell_geometry.h>
+
+#include <algorithm>
+
+namespace Perimorph::Fracture
+{
+  namespace
+  {
+    // Parts along each axis that a touched cell is cut into: the crack then
+    // passes between points that are h / 4 apart.
+    constexpr unsigned int n_parts = 2;
+
+    /// Sets stress and energy of a gradient.
+    template <int dim>
+    void
+    apply_law(const Materials::Material<dim> &law, StressPoint<dim> &point)
+    {
+      const auto &H               = point.displacement_gradient;
+      point.first_piola_kirchhoff = law.first_piola_kirchhoff(H);
+      point.energy_density        = law.energy_density(H);
+    }
+
+    template <int dim>
+    void
+    finish_point(StressPointSet<dim> &set, const StressPoint<dim> &point)
+    {
+      set.points.push_back(point);
+      set.offsets.push_back(set.node.size());
+    }
+
+    template <int dim>
+    bool
+    in_region(const Mesh::NodalMesh<dim> &mesh,
+              const unsigned int          cell,
+              const std::vector<bool>    &region)
+    {
+      return std::any_of(mesh.cells[cell].begin(),
+                         mesh.cells[cell].end(),
+                         [&](const unsigned int n) { return region[n]; });
+    }
+
+    /// Gauss points of a cell.
+    /// @param alpha  empty: 0
+    template <int dim>
+    void
+    add_gauss_points(const DeformedBody<dim>   &body,
+                     const unsigned int         cell,
+                     const std::vector<double> &alpha,
+                     StressPointSet<dim>       &set)
+    {
+      const auto &nodes = body.mesh.cells[cell];
+      const auto &law   = *body.materials[body.mesh.cell_material[cell]];
+      const Mesh::CellGeometry<dim> geometry(body.mesh.corners(cell));
+      for (unsigned int q = 0; q < geometry.n_points; ++q)
+        {
+          double share = 1.;
+          if (!alpha.empty())
+            for (unsigned int v = 0; v < nodes.size(); ++v)
+              share -= alpha[nodes[v]] * geometry.shape_value(q, v);
+          // round-off where all nodes have alpha = 1
+          if (share < 1e-12)
+            continue;
+          StressPoint<dim> point = {};
+          point.x                = geometry.points[q];
+          point.volume           = geometry.jxw[q] * share;
+          for (unsigned int v = 0; v < nodes.size(); ++v)
+            {
+              const auto &gradient = geometry.gradients[q][v];
+              point.displacement_gradient +=
+                dealii::outer_product(body.displacement[nodes[v]], gradient);
+              set.node.push_back(nodes[v]);
+              set.gradient_weight.push_back(gradient);
+            }
+          apply_law(law, point);
+          finish_point(set, point);
+        }
+    }
+
+    /// True if a crack passes between two nodes of the cell or between a Gauss
+    /// point and a node.
+    template <int dim>
+    bool
+    is_touched(const Mesh::NodalMesh<dim> &mesh,
+               const unsigned int          cell,
+               const Bonds::CrackSet<dim> &cracks,
+               std::vector<unsigned int>  &facets)
+    {
+      const auto                     corners = mesh.corners(cell);
+      const dealii::BoundingBox<dim> box(
+        std::vector<dealii::Point<dim>>(corners.begin(), corners.end()));
+      cracks.near(box, facets);
+      if (facets.empty())
+        return false;
+      const Mesh::CellGeometry<dim> geometry(corners);
+      for (unsigned int v = 0; v < corners.size(); ++v)
+        {
+          for (unsigned int w = 0; w < v; ++w)
+            if (cracks.crosses(corners[w], corners[v]))
+              return true;
+          for (const auto &point : geometry.points)
+            if (cracks.crosses(point, corners[v]))
+              return true;
+        }
+      return false;
+    }
+
+    /// Gauss points of the parts of a touched cell. The map of a part is that
+    /// of the cell, so q and its gradient are those of the cell.
+    template <int dim>
+    void
+    add_fitted_points(const DeformedBody<dim>    &body,
+                      const unsigned int          cell,
+                      const DisplacementFit<dim> &fit,
+                      StressPointSet<dim>        &set)
+    {
+      const auto         corners  = body.mesh.corners(cell);
+      const auto        &nodes    = body.mesh.cells[cell];
+      const unsigned int material = body.mesh.cell_material[cell];
+      double             spacing  = 0.;
+      for (const unsigned int n : nodes)
+        spacing += body.mesh.spacing[n] / nodes.size();
+
+      unsigned int n_all = 1;
+      for (int d = 0; d < dim; ++d)
+        n_all *= n_parts;
+      for (unsigned int part = 0; part < n_all; ++part)
+        {
+          std::array<std::array<double, (1u << dim)>, (1u << dim)> values;
+          std::array<dealii::Point<dim>, (1u << dim)>              ends;
+          for (unsigned int w = 0; w < ends.size(); ++w)
+            {
+              dealii::Point<dim> unit;
+              for (unsigned int d = 0, rest = part; d < dim;
+                   ++d, rest /= n_parts)
+                unit[d] = double(rest % n_parts + (w >> d & 1)) / n_parts;
+              values[w] = Mesh::shape_values<dim>(unit);
+              for (unsigned int v = 0; v < nodes.size(); ++v)
+                ends[w] += values[w][v] * corners[v];
+            }
+          const Mesh::CellGeometry<dim> geometry(ends);
+          for (unsigned int q = 0; q < geometry.n_points; ++q)
+            {
+              StressPoint<dim> point = {};
+              point.x                = geometry.points[q];
+              point.volume           = geometry.jxw[q];
+              const auto result =
+                fit.fit(point.x, spacing, material, body.displacement);
+              point.displacement_gradient = result.gradient;
+              try
+                {
+                  if (result.n_nodes == 0)
+                    throw Base::InadmissibleState("no gradient");
+                  apply_law(*body.materials[material], point);
+                }
+              catch (const Base::InadmissibleState &)
+                {
+                  ++set.n_without_stress;
+                  continue;
+                }
+              for (unsigned int v = 0; v < nodes.size(); ++v)
+                {
+                  dealii::Tensor<1, dim> gradient;
+                  for (unsigned int w = 0; w < ends.size(); ++w)
+                    gradient += values[w][v] * geometry.gradients[q][w];
+                  set.node.push_back(nodes[v]);
+                  set.gradient_weight.push_back(gradient);
+                }
+              finish_point(set, point);
+            }
+        }
+    }
+  } // namespace
+
+  template <int dim>
+  void
+  StressPointSet<dim>::differentiate(const std::vector<double> &q)
+  {
+    for (std::size_t p = 0; p < points.size(); ++p)
+      {
+        points[p].q_gradient = 0.;
+        // q is constant around most points: an exact zero says so
+        bool constant = true;
+        for (std::size_t k = offsets[p]; k < offsets[p + 1]; ++k)
+          constant = constant && q[node[k]] == q[node[offsets[p]]];
+        if (!constant)
+          for (std::size_t k = offsets[p]; k < offsets[p + 1]; ++k)
+            points[p].q_gradient += q[node[k]] * gradient_weight[k];
+      }
+  }
+
+  template <int dim>
+  std::vector<bool>
+  nodes_within(const Mesh::NodalMesh<dim>            &mesh,
+               const std::vector<dealii::Point<dim>> &centers,
+               const double                           radius)
+  {
+    std::vector<bool> within(mesh.n_nodes(), false);
+    for (unsigned int n = 0; n < mesh.n_nodes(); ++n)
+      for (const auto &center : centers)
+        if (mesh.nodes[n].distance_square(center) < radius * radius)
+          {
+            within[n] = true;
+            break;
+          }
+    return within;
+  }
+
+  template <int dim>
+  void
+  add_element_points(const DeformedBody<dim>   &body,
+                     const std::vector<double> &alpha,
+                     const std::vector<bool>   &region,
+                     StressPointSet<dim>       &set)
+  {
+    for (unsigned int c = 0; c < body.mesh.n_cells(); ++c)
+      if (body.mesh.owns_cell(c) && in_region(body.mesh, c, region))
+        add_gauss_points(body, c, alpha, set);
+  }
+
+  template <int dim>
+  void
+  add_family_points(const DeformedBody<dim>            &body,
+                    const Peridynamics::FamilySet<dim> &families,
+                    const std::vector<bool>            &region,
+                    StressPointSet<dim>                &set)
+  {
+    for (std::size_t p = 0; p < families.n_particles(); ++p)
+      {
+        const unsigned int own   = families.node[p];
+        const auto         first = families.neighbor.begin();
+        // A family outside feels q when it reaches inside.
+        const bool near =
+          region[own] ||
+          std::any_of(first + families.offsets[p],
+                      first + families.offsets[p + 1],
+                      [&](const unsigned int n) { return region[n]; });
+        if (!near || families.weight[p] == 0.)
+          continue;
+        StressPoint<dim> point = {};
+        point.x                = body.mesh.nodes[own];
+        point.volume           = families.weight[p];
+        dealii::Tensor<1, dim> sum;
+        for (std::size_t b = families.offsets[p]; b < families.offsets[p + 1];
+             ++b)
+          {
+            const unsigned int other  = families.neighbor[b];
+            const auto        &weight = families.gradient_weight[b];
+            point.displacement_gradient += dealii::outer_product(
+              body.displacement[other] - body.displacement[own],
+              weight);
+            set.node.push_back(other);
+            set.gradient_weight.push_back(weight);
+            sum += weight;
+          }
+        set.node.push_back(own);
+        set.gradient_weight.push_back(-sum);
+        apply_law(*body.materials[families.material[p]], point);
+        finish_point(set, point);
+      }
+  }
+
+  template <int dim>
+  void
+  add_cell_points(const DeformedBody<dim>    &body,
+                  const Bonds::CrackSet<dim> &cracks,
+                  const DisplacementFit<dim> &fit,
+                  const std::vector<bool>    &region,
+                  StressPointSet<dim>        &set)
+  {
+    std::vector<unsigned int> facets;
+    for (unsigned int c = 0; c < body.mesh.n_cells(); ++c)
+      if (body.mesh.owns_cell(c) && in_region(body.mesh, c, region))
+        {
+          if (is_touched(body.mesh, c, cracks, facets))
+            add_fitted_points(body, c, fit, set);
+          else
+            add_gauss_points(body, c, {}, set);
+        }
+  }
+
+  template <int dim>
+  std::unique_ptr<DisplacementFit<dim>>
+  visible_fit(const Mesh::NodalMesh<dim>   &mesh,
+              const Bonds::CrackSet<dim>   &cracks,
+              std::vector<MirrorPlane<dim>> planes)
+  {
+    auto fit = std::make_unique<DisplacementFit<dim>>(mesh, std::move(planes));
+    if (!cracks.empty())
+      fit->set_visibility(
+        [&](const dealii::Point<dim> &point, const unsigned int node) {
+          return !cracks.crosses(point, mesh.nodes[node]);
+        });
+    return fit;
+  }
+
+#define INSTANTIATE(dim)                                                     \
+  template struct StressPointSet<dim>;                                       \
+  template std::vector<bool> nodes_within<dim>(                              \
+    const Mesh::NodalMesh<dim> &,                                            \
+    const std::vector<dealii::Point<dim>> &,                                 \
+    double);                                                                 \
+  template void add_element_points<dim>(const DeformedBody<dim> &,           \
+                                        const std::vector<double> &,         \
+                                        const std::vector<bool> &,           \
+                                        StressPointSet<dim> &);              \
+  template void add_family_points<dim>(const DeformedBody<dim> &,            \
+                                       const Peridynamics::FamilySet<dim> &, \
+                                       const std::vector<bool> &,            \
+                                       StressPointSet<dim> &);               \
+  template void add_cell_points<dim>(const DeformedBody<dim> &,              \
+                                     const Bonds::CrackSet<dim> &,           \
+                                     const DisplacementFit<dim> &,           \
+                                     const std::vector<bool> &,              \
+                                     StressPointSet<dim> &);                 \
+  template std::unique_ptr<DisplacementFit<dim>> visible_fit<dim>(           \
+    const Mesh::NodalMesh<dim> &,                                            \
+    const Bonds::CrackSet<dim> &,                                            \
+    std::vector<MirrorPlane<dim>>);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Perimorph::Fracture
