@@ -169,6 +169,33 @@ namespace Perimorph::Application
       "consistent: cracks are free surfaces to round-off. shape tensor: bonds "
       "that cross are left out, nothing more; for comparison.",
       choice({"consistent", "shape tensor"}));
+    prm.add_parameter(
+      "growth",
+      crack_growth,
+      "none; segments: cracks grow by straight advances where the energy that "
+      "an advance releases is the fracture energy (2D, linear or not).",
+      choice({"none", "segments"}));
+    prm.add_parameter("fracture energy",
+                      fracture_energy,
+                      "G_c [stress * length]; energy per area of crack.",
+                      Double(0.));
+    prm.add_parameter("advance length",
+                      advance_length,
+                      "Of one advance: a length, or in horizons: '1 horizons'.",
+                      Anything());
+    prm.add_parameter(
+      "growth control",
+      growth_control,
+      "load steps: at the loads of each step cracks grow while they can. "
+      "events: the loads of the end time times a factor that makes each "
+      "advance "
+      "just possible (linear problems, loads in proportion to t); snap-back "
+      "included.",
+      choice({"load steps", "events"}));
+    prm.add_parameter("maximum advances",
+                      maximum_advances,
+                      "The run stops after so many.",
+                      Integer(1));
     prm.leave_subsection();
 
     prm.enter_subsection("Boundary conditions");

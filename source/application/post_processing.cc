@@ -2,6 +2,7 @@
 #include <perimorph/base/name_help.h>
 #include <perimorph/fem/face_geometry.h>
 #include <perimorph/fracture/stress_concentration.h>
+#include <perimorph/fracture/stress_points.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -78,7 +79,8 @@ namespace Perimorph::Application
     const SimulationParameters<dim>    &parameters,
     const Mesh::DistributedMesh<dim>   &mesh,
     const Coupling::BodyMaterials<dim> &materials,
-    const Fem::Supports<dim>           &supports)
+    const Fem::Supports<dim>           &supports,
+    const Bonds::CrackSet<dim>         &cracks)
     : parameters(parameters)
     , mesh(mesh)
     , materials(materials)
@@ -87,8 +89,7 @@ namespace Perimorph::Application
     std::vector<Fracture::MirrorPlane<dim>> planes;
     for (const auto &plane : supports.symmetry_planes())
       planes.push_back({plane.point, plane.normal, plane.nodes});
-    fit =
-      std::make_unique<Fracture::DisplacementFit<dim>>(mesh.nodal(), planes);
+    fit = Fracture::visible_fit(mesh.nodal(), cracks, planes);
     recovery =
       std::make_unique<Fracture::NodalStress<dim>>(*fit, materials.laws);
     probe = std::make_unique<Fracture::PointProbe<dim>>(*recovery);

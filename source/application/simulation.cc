@@ -2,6 +2,7 @@
 #include <perimorph/base/collective.h>
 #include <perimorph/base/log.h>
 #include <perimorph/base/progress.h>
+#include <perimorph/bonds/crack_damage.h>
 #include <perimorph/output/csv_writer.h>
 
 #include <algorithm>
@@ -23,7 +24,7 @@ namespace Perimorph::Application
       static const std::regex ours(
         "results\\.json|newton\\.csv|load_steps\\.csv|quantities\\.csv|"
         "probe_.*\\.csv|"
-        "(solution|particles)(_[0-9]+\\.vtu|\\.pvd)");
+        "crack_growth\\.csv|(solution|particles|cracks)(_[0-9]+\\.vtu|\\.pvd)");
       std::error_code                    ignored;
       std::vector<std::filesystem::path> old;
       for (const auto &entry :
@@ -107,16 +108,26 @@ namespace Perimorph::Application
   typename Simulation<dim>::Method
   Simulation<dim>::set_up(const Mesh::Mode mode)
   {
-    const auto timer = timing.scope("setup");
-    Method     method;
-    if (mode == parameters.region.mode)
-      method.region = region;
-    else
+    auto method_region = region;
+    if (mode != parameters.region.mode)
       {
         auto other    = parameters.region;
         other.mode    = mode;
-        method.region = make_region_map(*mesh, other);
+        method_region = make_region_map(*mesh, other);
       }
+    return make_method(
+      method_region,
+      mode == Mesh::Mode::finite_elements ? Bonds::CrackSet<dim>() : cracks);
+  }
+
+  template <int dim>
+  typename Simulation<dim>::Method
+  Simulation<dim>::make_method(const Mesh::RegionMap      &region,
+                               const Bonds::CrackSet<dim> &cracks)
+  {
+    const auto timer = timing.scope("setup");
+    Method     method;
+    method.region = region;
     std::unique_ptr<Base::Progress> progress;
     const auto report = [&](const std::size_t done, const std::size_t total) {
       if (!progress)
@@ -133,7 +144,7 @@ namespace Perimorph::Application
         parameters.coupling,
         report,
         supports->coupled_nodes(),
-        mode == Mesh::Mode::finite_elements ? Bonds::CrackSet<dim>() : cracks);
+        cracks);
     }
     method.equilibrium = std::make_unique<Solvers::Equilibrium<dim>>(
       *mesh,
@@ -162,7 +173,24 @@ namespace Perimorph::Application
     result->set("counts", "active_cells", counts.active_cells);
     result->set("counts", "particles", counts.particles);
     result->set("counts", "bonds", counts.bonds);
-    result->set("counts", "broken_bonds", 0);
+    std::size_t n_hidden = 0;
+    if (method.region.n_core > 0)
+      Bonds::crack_damage(nodal,
+                          method.region.alpha,
+                          method.region.horizon,
+                          cracks,
+                          n_hidden);
+    result->set("counts", "broken_bonds", n_hidden);
+    if (!cracks.empty())
+      {
+        const auto &cracked = method.problem->crack_report();
+        result->set("counts", "cut_families", cracked.n_cut);
+        result->set("counts", "families_without_energy", cracked.n_dead);
+        if (cracked.n_dead > 0)
+          log.warning(
+            std::to_string(cracked.n_dead) +
+            " families have too few intact bonds and carry no energy");
+      }
     result->set("counts", "newton_iterations", 0);
     result->set("counts", "linear_iterations", 0);
     result->set("skipped", "damage_pass", "no bond can break");

@@ -98,6 +98,7 @@ namespace Perimorph::Application
     read_region(texts, errors);
     read_boundary_conditions(texts, errors);
     read_quantities(texts, parameter_file, errors);
+    read_cracks(texts, errors);
     check_law(errors);
   }
 
@@ -193,14 +194,7 @@ namespace Perimorph::Application
     if (texts.influence_function != "automatic")
       coupling.influence =
         Peridynamics::influence_function_from_name(texts.influence_function);
-    coupling.gamma      = texts.stabilization;
-    coupling.crack_rule = texts.crack_treatment == "consistent"
-                            ? Coupling::CrackRule::consistent
-                            : Coupling::CrackRule::shape_tensor;
-    pre_cracks          = Parameters::parse_polylines("Cracks / pre-cracks",
-                                             texts.pre_cracks,
-                                             dim,
-                                             errors);
+    coupling.gamma = texts.stabilization;
     if (texts.stabilization_scale != "automatic")
       coupling.scale =
         from_name<Coupling::StabilizationScale>(texts.stabilization_scale,

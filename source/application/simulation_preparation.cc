@@ -42,7 +42,8 @@ namespace Perimorph::Application
         post_processing = std::make_unique<PostProcessing<dim>>(parameters,
                                                                 *mesh,
                                                                 materials,
-                                                                *supports);
+                                                                *supports,
+                                                                cracks);
       });
     if (supports && loads)
       errors.collect([&]() { hold_rigid_motion(); });

@@ -2,6 +2,7 @@
 #include <perimorph/base/collective.h>
 #include <perimorph/base/log.h>
 #include <perimorph/base/progress.h>
+#include <perimorph/bonds/crack_damage.h>
 #include <perimorph/output/summary.h>
 
 #include <Eigen/Dense>
@@ -119,6 +120,31 @@ namespace Perimorph::Application
     nodal_fields.add("displacement", state.displacement);
     nodal_fields.add("alpha", method.region.alpha);
     nodal_fields.add("horizon", method.region.horizon);
+    std::vector<double> damage(mesh->nodal().n_nodes(), 0.);
+    if (!cracks.empty() && method.region.n_core > 0)
+      {
+        std::size_t n_hidden;
+        damage = Bonds::crack_damage(mesh->nodal(),
+                                     method.region.alpha,
+                                     method.region.horizon,
+                                     cracks,
+                                     n_hidden);
+        nodal_fields.add("damage", damage);
+        std::vector<std::array<dealii::Point<dim>, dim>> pieces;
+        std::vector<double>                              numbers, steps;
+        for (const auto &facet : cracks.facets())
+          {
+            pieces.push_back(facet.corners);
+            numbers.push_back(facet.crack);
+            steps.push_back(facet.step);
+          }
+        Output::Fields<dim> crack_fields;
+        crack_fields.add("crack", numbers);
+        crack_fields.add("advance", steps);
+        Base::collectively(communicator, [&]() {
+          fields->write_cracks(step, time, pieces, crack_fields);
+        });
+      }
     if (parameters.write_stress)
       {
         Base::Progress progress(log,
@@ -174,7 +200,7 @@ namespace Perimorph::Application
       return;
     const auto                         &nodal = mesh->nodal();
     std::vector<unsigned int>           nodes;
-    std::vector<double>                 alpha, horizon, volume, damage;
+    std::vector<double>                 alpha, horizon, volume, own_damage;
     std::vector<dealii::Tensor<1, dim>> displacement;
     for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
       if (method.region.alpha[n] > 0.)
@@ -183,7 +209,7 @@ namespace Perimorph::Application
           alpha.push_back(method.region.alpha[n]);
           horizon.push_back(method.region.horizon[n]);
           volume.push_back(nodal.volume[n]);
-          damage.push_back(0.);
+          own_damage.push_back(damage[n]);
           displacement.push_back(state.displacement[n]);
         }
     Output::Fields<dim> particle_fields;
@@ -191,7 +217,7 @@ namespace Perimorph::Application
     particle_fields.add("alpha", alpha);
     particle_fields.add("horizon", horizon);
     particle_fields.add("volume", volume);
-    particle_fields.add("damage", damage);
+    particle_fields.add("damage", own_damage);
     if (parameters.write_virial_stress)
       {
         Fem::Vector complete_displacement(method.displacement);

@@ -38,6 +38,10 @@ namespace Perimorph::Application
                                 const OnStep   &on_step,
                                 const OnNewton &on_newton)
   {
+    // The companion with finite elements does not grow cracks.
+    const bool grows = method.region.n_core > 0;
+    if (parameters.growth.events && grows)
+      return follow_growth_events(method, on_step, on_newton);
     if (parameters.arc_length)
       return follow_arc(method, on_step, on_newton);
     const auto times        = parameters.times();
@@ -81,7 +85,10 @@ namespace Perimorph::Application
           stepping.advance(time, end, attempt, on_cut, on_intermediate);
         if (reached == end)
           {
+            step.number += n_advances;
             on_step(step);
+            if (parameters.growth.active && grows)
+              grow_cracks(method, step, on_step, on_newton);
             time = end;
             continue;
           }
@@ -191,6 +198,20 @@ namespace Perimorph::Application
   }
 
   template <int dim>
+  void
+  Simulation<dim>::count_work(const State<dim> &state)
+  {
+    if (!counts_work)
+      return;
+    for (unsigned int n = 0; n < state.displacement.size(); ++n)
+      work += 0.5 *
+              (post_processing->outer_force(n, last_state) +
+               post_processing->outer_force(n, state)) *
+              (state.displacement[n] - last_state.displacement[n]);
+    last_state = state;
+  }
+
+  template <int dim>
   bool
   Simulation<dim>::solve_load_steps(Method &method)
   {
@@ -217,17 +238,19 @@ namespace Perimorph::Application
                                  "relative_residual",
                                  "strain_energy",
                                  "external_work",
+                                 "released_energy",
+                                 "dissipated_energy",
+                                 "crack_growth",
                                  "largest_displacement",
                                  "imbalance"},
         log);
     });
     files.push_back("newton.csv");
     files.push_back("load_steps.csv");
-    State<dim> previous      = gather(method);
-    double     work          = 0.; // of loads and supports
-    double     largest_force = 0.;
+    last_state           = gather(method);
+    double largest_force = 0.;
     if (parameters.write_fields)
-      write_fields(method, previous, 0, 0.);
+      write_fields(method, last_state, 0, 0.);
 
     const auto on_newton = [&](const Step                     &step,
                                const Solvers::NewtonIteration &iteration) {
@@ -251,16 +274,11 @@ namespace Perimorph::Application
       result->add_count("newton_iterations", step.newton_iterations);
       result->add_count("linear_iterations", step.linear_iterations);
       remove_mean_rigid_motion(method);
-      const auto state   = gather(method);
-      double     largest = 0.;
-      for (unsigned int n = 0; n < state.displacement.size(); ++n)
-        {
-          work += 0.5 *
-                  (post_processing->outer_force(n, previous) +
-                   post_processing->outer_force(n, state)) *
-                  (state.displacement[n] - previous.displacement[n]);
-          largest = std::max(largest, state.displacement[n].norm());
-        }
+      const auto state = gather(method);
+      count_work(state);
+      double largest = 0.;
+      for (const auto &u : state.displacement)
+        largest = std::max(largest, u.norm());
       largest_force =
         std::max(largest_force, method.equilibrium->largest_force_met());
       const double imbalance = post_processing->imbalance(state, largest_force);
@@ -272,16 +290,21 @@ namespace Perimorph::Application
                              step.relative_residual,
                              state.strain_energy,
                              work,
+                             released_energy,
+                             dissipated_energy,
+                             grown_length,
                              largest,
                              imbalance});
       result->set("checks", "imbalance", imbalance);
       // Between the states of a path that is not straight the work is that of
       // the trapezoidal rule.
       if (method.equilibrium->is_linear())
-        result->set(
-          "checks",
-          "energy_balance",
-          energy_balance(work, state.strain_energy, largest_force * largest));
+        result->set("checks",
+                    "energy_balance",
+                    energy_balance(work,
+                                   state.strain_energy + released_energy -
+                                     switched_energy,
+                                   largest_force * largest));
       log << "  largest displacement " << largest << ", strain energy "
           << state.strain_energy << ", out-of-balance " << imbalance
           << std::endl;
@@ -289,7 +312,8 @@ namespace Perimorph::Application
         log.warning("loads and reactions do not balance (relative "
                     "out-of-balance force or moment above 1e-6)");
       warn_of_point_supports(state, largest_force);
-      if (parameters.n_steps > 1 || parameters.arc_length)
+      if (parameters.n_steps > 1 || parameters.arc_length ||
+          parameters.growth.active)
         {
           const auto timer      = timing.scope("recovery");
           const auto quantities = post_processing->evaluate(state);
@@ -313,7 +337,6 @@ namespace Perimorph::Application
         }
       if (parameters.write_fields)
         write_fields(method, state, step.number, step.time);
-      previous = state;
     };
     bool some_step_converged = false;
     try
@@ -375,6 +398,10 @@ namespace Perimorph::Application
   Simulation<2>::follow_arc(Method &, const OnStep &, const OnNewton &);
   template bool
   Simulation<3>::follow_arc(Method &, const OnStep &, const OnNewton &);
+  template void
+  Simulation<2>::count_work(const State<2> &);
+  template void
+  Simulation<3>::count_work(const State<3> &);
   template bool
   Simulation<2>::solve_load_steps(Method &);
   template bool

@@ -32,6 +32,18 @@ namespace Perimorph::Coupling
   }
 
   template <int dim>
+  Peridynamics::FamilySet<dim>
+  CorrespondenceTerm<dim>::global_families(
+    const Fem::NodePartition<dim> &partition) const
+  {
+    auto result = families;
+    for (auto *list : {&result.node, &result.neighbor})
+      for (unsigned int &node : *list)
+        node = partition.global(node);
+    return result;
+  }
+
+  template <int dim>
   std::string
   CorrespondenceTerm<dim>::name() const
   {

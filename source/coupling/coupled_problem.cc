@@ -414,6 +414,17 @@ namespace Perimorph::Coupling
   }
 
   template <int dim>
+  Peridynamics::FamilySet<dim>
+  CoupledProblem<dim>::correspondence_families() const
+  {
+    for (const auto &term : contributions)
+      if (const auto families =
+            dynamic_cast<const CorrespondenceTerm<dim> *>(term.get()))
+        return families->global_families(*node_partition);
+    return {};
+  }
+
+  template <int dim>
   std::vector<dealii::Tensor<2, dim>>
   CoupledProblem<dim>::virial_stress(const Vector          &displacement,
                                      const Mesh::RegionMap &region) const

@@ -159,11 +159,35 @@ namespace Perimorph::Output
 
 
   template <int dim>
+  void
+  FieldOutput<dim>::write_cracks(
+    const unsigned int                                      step,
+    const double                                            time,
+    const std::vector<std::array<dealii::Point<dim>, dim>> &corners,
+    const Fields<dim>                                      &fields)
+  {
+    if (!is_active())
+      return;
+    VtuGrid grid;
+    grid.cell_type = dim == 2 ? VtuCell::line : VtuCell::triangle;
+    for (const auto &piece : corners)
+      for (const auto &point : piece)
+        {
+          grid.connectivity.push_back(
+            static_cast<std::int32_t>(grid.points.size() / 3));
+          append_point(grid.points, point);
+        }
+    grid.cell_data = fields.arrays();
+    write_step(cracks, step, time, grid);
+  }
+
+
+  template <int dim>
   std::vector<std::string>
   FieldOutput<dim>::files() const
   {
     std::vector<std::string> names;
-    for (const Series *series : {&solution, &particles})
+    for (const Series *series : {&solution, &particles, &cracks})
       if (!series->steps.empty())
         names.push_back(series->name + ".pvd");
     return names;

@@ -127,6 +127,8 @@ namespace Perimorph::Output
       {
         case VtuCell::line:
           return 2;
+        case VtuCell::triangle:
+          return 3;
         case VtuCell::quadrilateral:
           return 4;
         case VtuCell::hexahedron:

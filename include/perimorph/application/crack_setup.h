@@ -1,6 +1,6 @@
 #pragma once
 
-#include <perimorph/bonds/crack_set.h>
+#include <perimorph/bonds/crack_points.h>
 #include <perimorph/mesh/distributed_mesh.h>
 #include <perimorph/mesh/region_map.h>
 #include <perimorph/parameters/polylines.h>

@@ -41,10 +41,12 @@ namespace Perimorph::Application
   public:
     /// @throws Base::InputError  boundaries not in the mesh, points outside the
     ///         body, unreadable reference data, references without a quantity
+    /// @param cracks  kept as a reference, may grow
     PostProcessing(const SimulationParameters<dim>    &parameters,
                    const Mesh::DistributedMesh<dim>   &mesh,
                    const Coupling::BodyMaterials<dim> &materials,
-                   const Fem::Supports<dim>           &supports);
+                   const Fem::Supports<dim>           &supports,
+                   const Bonds::CrackSet<dim>         &cracks);
     ~PostProcessing();
 
     std::vector<NamedQuantity>

@@ -3,11 +3,15 @@
 #include <perimorph/application/post_processing.h>
 #include <perimorph/base/timing.h>
 #include <perimorph/fem/rigid_motion.h>
+#include <perimorph/fracture/crack_tips.h>
+#include <perimorph/output/csv_writer.h>
 #include <perimorph/output/field_output.h>
 #include <perimorph/output/results.h>
 #include <perimorph/solvers/equilibrium.h>
 
 #include <memory>
+#include <optional>
+#include <set>
 
 namespace Perimorph::Base
 {
@@ -81,6 +85,9 @@ namespace Perimorph::Application
     open_output(const std::string &parameters_text);
     Method
     set_up(Mesh::Mode mode);
+    Method
+    make_method(const Mesh::RegionMap      &region,
+                const Bonds::CrackSet<dim> &cracks);
     void
     report_set_up(const Method &method);
     /// A load step or arc step that was accepted.
@@ -110,6 +117,45 @@ namespace Perimorph::Application
     follow_arc(Method         &method,
                const OnStep   &on_step,
                const OnNewton &on_newton);
+    /// Growth of cracks: advances at the loads of the state of a method while
+    /// one releases its fracture energy; on_step gets the state after each.
+    void
+    grow_cracks(Method         &method,
+                Step           &step,
+                const OnStep   &on_step,
+                const OnNewton &on_newton);
+    /// Scales the loads of the end time so that each advance is just possible;
+    /// on_step gets the states before and after each.
+    /// @return  false if the largest number of advances was reached
+    bool
+    follow_growth_events(Method         &method,
+                         const OnStep   &on_step,
+                         const OnNewton &on_newton);
+    /// The next advance of one tip, and what it would release.
+    struct Advance
+    {
+      Fracture::CrackTip     tip;
+      Bonds::CrackFacet<dim> facet;
+      double                 length;   ///< that is new crack in the body
+      double                 released; ///< potential energy at fixed loads
+      double                 switched; ///< change by the growth of the core
+    };
+    /// The advance that needs least load; none when no tip is left. Replaces
+    /// the method by one whose peridynamic core has room for it.
+    std::optional<Advance>
+    best_advance(Method &method, const OnNewton &on_newton);
+    /// Solves at the time of a method with other cracks.
+    Method
+    solve_with(const Bonds::CrackSet<dim> &other_cracks,
+               const Mesh::RegionMap      &region,
+               const Method               &start);
+    double
+    potential_energy(const Method &method) const;
+    /// Adds the work done between the last state and this one.
+    void
+    count_work(const State<dim> &state);
+    void
+    write_advance(const Advance &advance, const Step &step, double load_factor);
     /// The run itself: follows the loads, writes tables and fields.
     bool
     solve_load_steps(Method &method);
@@ -148,5 +194,18 @@ namespace Perimorph::Application
     std::unique_ptr<Output::FieldOutput<dim>>   fields;
     std::vector<std::string>                    files;
     bool                                        point_supports_checked = false;
+
+    // Growth of cracks.
+    std::unique_ptr<Output::CsvWriter> growth_table;
+    unsigned int                       n_advances = 0;
+    std::vector<double>                recent_loads; ///< of the advances
+    std::set<unsigned int>             grown; ///< facets that tips start from
+    double released_energy = 0., dissipated_energy = 0., grown_length = 0.;
+    double switched_energy = 0.; ///< change by the growth of the core
+
+    // Work of loads and supports, by the trapezoidal rule between states.
+    State<dim> last_state;
+    double     work        = 0.;
+    bool       counts_work = true;
   };
 } // namespace Perimorph::Application

@@ -40,7 +40,11 @@ namespace Perimorph::Application
                 stabilization_scale = "automatic";
     double horizon_ratio = 2., horizon = 0., stabilization = 1.;
 
-    std::string pre_cracks, crack_treatment = "consistent";
+    std::string pre_cracks,
+      crack_treatment = "consistent", crack_growth = "none",
+      advance_length = "1 horizons", growth_control = "load steps";
+    double       fracture_energy  = 0.;
+    unsigned int maximum_advances = 1000;
 
     std::string symmetry, displacement, mean_displacement, rigid_plate,
       traction, pressure, follower_pressure, body_force, point_displacement,
@@ -84,6 +88,16 @@ namespace Perimorph::Application
   };
 
   /// Everything a run needs to know, checked and typed.
+  /// Growth of cracks by segments.
+  struct GrowthParameters
+  {
+    bool               active = false;
+    bool               events = false; ///< else by load steps
+    double             fracture_energy;
+    Parameters::Length advance;
+    unsigned int       maximum_advances;
+  };
+
   template <int dim>
   struct SimulationParameters
   {
@@ -107,6 +121,7 @@ namespace Perimorph::Application
     Mesh::RegionParameters            region;
     Coupling::CouplingParameters      coupling;
     std::vector<Parameters::Polyline> pre_cracks;
+    GrowthParameters                  growth;
     Fem::BoundaryConditions<dim>      boundary_conditions;
 
     unsigned int                    n_steps;
@@ -164,6 +179,8 @@ namespace Perimorph::Application
       Base::InputErrorCollector                              &errors) const;
     void
     check_law(Base::InputErrorCollector &errors) const;
+    void
+    read_cracks(const ParameterTexts &texts, Base::InputErrorCollector &errors);
 
     Parameters::Constants constants;
   };

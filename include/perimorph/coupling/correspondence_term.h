@@ -22,6 +22,10 @@ namespace Perimorph::Coupling
                        const Fem::NodePartition<dim> &partition,
                        const MaterialList            &materials);
 
+    /// The families of this rank with global nodes.
+    Peridynamics::FamilySet<dim>
+    global_families(const Fem::NodePartition<dim> &partition) const;
+
     std::string
     name() const override;
     bool

@@ -135,6 +135,10 @@ namespace Perimorph::Coupling
     double
     strain_energy(const Vector &displacement) const;
 
+    /// Families of this rank with global nodes; empty without families.
+    Peridynamics::FamilySet<dim>
+    correspondence_families() const;
+
     /// nodal_virial_stress() of the bonds; empty without bonds.
     /// @param displacement  ghosts up to date
     std::vector<dealii::Tensor<2, dim>>

@@ -2,9 +2,11 @@
 
 #include <perimorph/output/vtu_writer.h>
 
+#include <deal.II/base/point.h>
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -85,6 +87,17 @@ namespace Perimorph::Output
                     const std::vector<unsigned int> &nodes,
                     const Fields<dim>               &fields);
 
+    /// Writes cracks_<step>.vtu: segments or triangles.
+    /// @param corners  dim points of each
+    /// @param fields   one entry per piece
+    /// @throws Base::InputError   the file cannot be written
+    void
+    write_cracks(
+      const unsigned int                                      step,
+      const double                                            time,
+      const std::vector<std::array<dealii::Point<dim>, dim>> &corners,
+      const Fields<dim>                                      &fields);
+
     /// The series written so far, e.g. {"solution.pvd"}; names in the folder.
     std::vector<std::string>
     files() const;
@@ -106,5 +119,6 @@ namespace Perimorph::Output
     const Mesh::NodalMesh<dim> &mesh;
     Series                      solution  = {"solution", {}};
     Series                      particles = {"particles", {}};
+    Series                      cracks    = {"cracks", {}};
   };
 } // namespace Perimorph::Output

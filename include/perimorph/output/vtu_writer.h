@@ -20,6 +20,7 @@ namespace Perimorph::Output
   {
     vertex        = 1,
     line          = 3,
+    triangle      = 5,
     quadrilateral = 9,
     hexahedron    = 12
   };

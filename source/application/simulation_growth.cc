@@ -1,0 +1,356 @@
+#include <perimorph/application/crack_setup.h>
+#include <perimorph/application/simulation.h>
+#include <perimorph/base/collective.h>
+#include <perimorph/base/log.h>
+#include <perimorph/fracture/segment_growth.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace Perimorph::Application
+{
+  namespace
+  {
+    template <int dim>
+    double
+    horizon_at(const Mesh::NodalMesh<dim> &mesh,
+               const Mesh::RegionMap      &region,
+               const dealii::Point<dim>   &point)
+    {
+      double       nearest = std::numeric_limits<double>::infinity();
+      unsigned int node    = 0;
+      for (unsigned int n = 0; n < mesh.n_nodes(); ++n)
+        if (region.alpha[n] > 0. && mesh.nodes[n].distance(point) < nearest)
+          {
+            nearest = mesh.nodes[n].distance(point);
+            node    = n;
+          }
+      return region.horizon[node];
+    }
+
+    /// Length of a facet in the body.
+    template <int dim>
+    double
+    length_inside(const Mesh::NodalMesh<dim>   &mesh,
+                  const Bonds::CrackFacet<dim> &facet)
+    {
+      double     length = 0.;
+      const auto points =
+        Bonds::crack_points(mesh, Bonds::CrackSet<dim>({facet}));
+      for (const auto &point : points)
+        length += point.measure;
+      return length;
+    }
+  } // namespace
+
+  template <int dim>
+  double
+  Simulation<dim>::potential_energy(const Method &method) const
+  {
+    const auto state     = gather(method);
+    double     potential = state.strain_energy;
+    for (unsigned int n = 0; n < state.displacement.size(); ++n)
+      potential -= state.external_force[n] * state.displacement[n];
+    return potential;
+  }
+
+  template <int dim>
+  typename Simulation<dim>::Method
+  Simulation<dim>::solve_with(const Bonds::CrackSet<dim> &other_cracks,
+                              const Mesh::RegionMap      &other_region,
+                              const Method               &start)
+  {
+    auto method = make_method(other_region, other_cracks);
+    for (unsigned int n = 0; n < method.displacement.locally_owned_size(); ++n)
+      method.displacement.local_element(n) =
+        start.displacement.local_element(n);
+    method.time       = start.time;
+    const auto record = method.equilibrium->solve(start.time,
+                                                  method.displacement,
+                                                  [](const auto &) {});
+    result->add_count("newton_iterations", record.n_iterations());
+    result->add_count("linear_iterations", record.linear_iterations);
+    if (!record.converged)
+      throw Base::SolveError(record.reason);
+    return method;
+  }
+
+  template <int dim>
+  std::optional<typename Simulation<dim>::Advance>
+  Simulation<dim>::best_advance([[maybe_unused]] Method         &method,
+                                [[maybe_unused]] const OnNewton &on_newton)
+  {
+    if constexpr (dim == 2)
+      {
+        const auto &nodal = mesh->nodal();
+        const auto  tips  = Fracture::find_tips(nodal, cracks);
+        if (tips.empty())
+          return std::nullopt;
+
+        // Probes: two horizons long, in a fan ahead of each tip.
+        struct Fan
+        {
+          double              horizon, spacing, length;
+          std::vector<double> angles;
+        };
+        std::vector<Fan> fans;
+        auto             wider = parameters.region;
+        for (const auto &tip : tips)
+          {
+            Fan fan;
+            fan.horizon = horizon_at(nodal, method.region, tip.frame.origin);
+            fan.spacing = fan.horizon / parameters.region.horizon_ratio;
+            fan.length  = parameters.growth.advance.in_horizons
+                            ? parameters.growth.advance.value * fan.horizon
+                            : parameters.growth.advance.value;
+            fan.angles =
+              Fracture::probe_angles(cracks.facets()[tip.facet].step == 0);
+            std::vector<Bonds::CrackFacet<2>> outline;
+            for (const double angle :
+                 {fan.angles.front(), 0., fan.angles.back()})
+              outline.push_back(
+                Fracture::advance_facet(tip,
+                                        angle,
+                                        std::max(2. * fan.horizon, fan.length),
+                                        0));
+            for (const auto &feature :
+                 crack_features(Bonds::CrackSet<2>(outline)))
+              wider.features.push_back(feature);
+            fans.push_back(fan);
+          }
+        // The core has room before bonds there are cut; it does not shrink.
+        double switched = 0.;
+        auto   next     = make_region_map(*mesh, wider);
+        for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
+          next.alpha[n] = std::max(next.alpha[n], method.region.alpha[n]);
+        if (next.alpha != method.region.alpha)
+          {
+            next.n_core = next.n_blending = next.n_elements = 0;
+            for (const double alpha : next.alpha)
+              ++(alpha == 1.  ? next.n_core
+                 : alpha > 0. ? next.n_blending
+                              : next.n_elements);
+            const double before = potential_energy(method);
+            method              = solve_with(cracks, next, method);
+            switched            = potential_energy(method) - before;
+            switched_energy += switched;
+            count_work(gather(method));
+          }
+
+        const double           start = potential_energy(method);
+        std::optional<Advance> best;
+        const auto released = [&](const Bonds::CrackFacet<2> &facet) {
+          auto longer = cracks;
+          longer.append({facet});
+          return start -
+                 potential_energy(solve_with(longer, method.region, method));
+        };
+        for (unsigned int t = 0; t < tips.size(); ++t)
+          {
+            const auto         &tip = tips[t];
+            const auto         &fan = fans[t];
+            std::vector<double> drops;
+            for (const double angle : fan.angles)
+              drops.push_back(released(
+                Fracture::advance_facet(tip, angle, 2. * fan.horizon, 0)));
+            const double angle  = Fracture::best_angle(fan.angles, drops);
+            const double length = Fracture::closing_length(nodal,
+                                                           cracks,
+                                                           tip,
+                                                           angle,
+                                                           fan.length,
+                                                           fan.spacing);
+            Advance      advance;
+            advance.tip = tip;
+            advance.facet =
+              Fracture::advance_facet(tip, angle, length, n_advances + 1);
+            advance.length   = length_inside(nodal, advance.facet);
+            advance.switched = switched;
+            advance.released = released(advance.facet);
+            if (!best || advance.released * best->length >
+                           best->released * advance.length)
+              best = advance;
+          }
+        return best;
+      }
+    else
+      return std::nullopt;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::write_advance([[maybe_unused]] const Advance &advance,
+                                 [[maybe_unused]] const Step    &step,
+                                 [[maybe_unused]] const double   load_factor)
+  {
+    if constexpr (dim == 2)
+      {
+        if (!growth_table)
+          {
+            Base::collectively(communicator, [&]() {
+              growth_table = std::make_unique<Output::CsvWriter>(
+                parameters.output_folder + "/crack_growth.csv",
+                std::vector<std::string>{"advance",
+                                         "step",
+                                         "time",
+                                         "crack",
+                                         "x",
+                                         "y",
+                                         "direction",
+                                         "length",
+                                         "released_energy",
+                                         "dissipated_energy",
+                                         "load_factor",
+                                         "mean_load_factor",
+                                         "energy_of_core_growth"},
+                log);
+            });
+            files.push_back("crack_growth.csv");
+          }
+        recent_loads.push_back(load_factor);
+        if (recent_loads.size() > 3)
+          recent_loads.erase(recent_loads.begin());
+        const double mean =
+          std::accumulate(recent_loads.begin(), recent_loads.end(), 0.) /
+          recent_loads.size();
+        const auto &corners = advance.facet.corners;
+        const auto  along   = corners[1] - corners[0];
+        growth_table->write_row(
+          {n_advances,
+           step.number,
+           step.time,
+           parameters.pre_cracks[advance.facet.crack].name,
+           corners[1][0],
+           corners[1][1],
+           std::atan2(along[1], along[0]) * 180. / dealii::numbers::PI,
+           advance.length,
+           advance.released,
+           parameters.growth.fracture_energy * advance.length,
+           load_factor,
+           mean,
+           advance.switched});
+        log << "  advance " << n_advances << ": crack '"
+            << parameters.pre_cracks[advance.facet.crack].name << "' to ("
+            << corners[1] << "), load factor " << load_factor << std::endl;
+      }
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::grow_cracks(Method         &method,
+                               Step           &step,
+                               const OnStep   &on_step,
+                               const OnNewton &on_newton)
+  {
+    const double G_c = parameters.growth.fracture_energy;
+    while (n_advances < parameters.growth.maximum_advances)
+      {
+        const auto advance = best_advance(method, on_newton);
+        if (!advance || advance->released < G_c * advance->length)
+          return;
+        cracks.append({advance->facet});
+        method = solve_with(cracks, method.region, method);
+        ++n_advances;
+        ++step.number;
+        released_energy += advance->released;
+        dissipated_energy += G_c * advance->length;
+        grown_length += advance->length;
+        write_advance(*advance,
+                      step,
+                      std::sqrt(G_c * advance->length / advance->released));
+        on_step(step);
+      }
+    log.warning("the largest number of advances was reached");
+  }
+
+  template <int dim>
+  bool
+  Simulation<dim>::follow_growth_events(Method         &method,
+                                        const OnStep   &on_step,
+                                        const OnNewton &on_newton)
+  {
+    const double G_c = parameters.growth.fracture_energy;
+    Step         step{0, 0.};
+    const auto   solve_at = [&](const double time) {
+      // Linear: the solution of one load scaled is that of another.
+      if (method.time != 0.)
+        method.displacement *= time / method.time;
+      const auto record =
+        method.equilibrium->solve(time,
+                                  method.displacement,
+                                  [&](const auto &i) { on_newton(step, i); });
+      if (!record.converged)
+        throw Base::SolveError("at load factor " + std::to_string(time) + ": " +
+                               record.reason);
+      method.time            = time;
+      step.time              = time;
+      step.n_increments      = 1;
+      step.newton_iterations = record.n_iterations();
+      step.relative_residual = record.residuals.back();
+    };
+    // Unloaded until the first load factor is known: what happens to the core
+    // before does no work.
+    solve_at(parameters.end_time);
+    counts_work = false;
+    while (n_advances < parameters.growth.maximum_advances)
+      {
+        auto advance = best_advance(method, on_newton);
+        if (!advance)
+          {
+            log << "  no tip is left" << std::endl;
+            return true;
+          }
+        if (!(advance->released > 0.))
+          {
+            log << "  an advance would release no energy" << std::endl;
+            return true;
+          }
+        const double factor =
+          std::sqrt(G_c * advance->length / advance->released);
+        if (!counts_work)
+          switched_energy = 0.;
+        counts_work = true;
+        solve_at(factor * method.time);
+        ++step.number;
+        on_step(step);
+        cracks.append({advance->facet});
+        method = solve_with(cracks, method.region, method);
+        ++n_advances;
+        ++step.number;
+        advance->released *= factor * factor;
+        released_energy += advance->released;
+        dissipated_energy += G_c * advance->length;
+        grown_length += advance->length;
+        write_advance(*advance, step, method.time);
+        on_step(step);
+      }
+    log.warning("the largest number of advances was reached");
+    return false;
+  }
+
+#define PERIMORPH_INSTANTIATE(dim)                                         \
+  template double Simulation<dim>::potential_energy(const Method &) const; \
+  template Simulation<dim>::Method Simulation<dim>::solve_with(            \
+    const Bonds::CrackSet<dim> &,                                          \
+    const Mesh::RegionMap &,                                               \
+    const Method &);                                                       \
+  template std::optional<Simulation<dim>::Advance>                         \
+                Simulation<dim>::best_advance(Method &, const OnNewton &); \
+  template void Simulation<dim>::write_advance(const Advance &,            \
+                                               const Step &,               \
+                                               double);                    \
+  template void Simulation<dim>::grow_cracks(Method &,                     \
+                                             Step &,                       \
+                                             const OnStep &,               \
+                                             const OnNewton &);            \
+  template bool Simulation<dim>::follow_growth_events(Method &,            \
+                                                      const OnStep &,      \
+                                                      const OnNewton &);
+
+  PERIMORPH_INSTANTIATE(2)
+  PERIMORPH_INSTANTIATE(3)
+#undef PERIMORPH_INSTANTIATE
+} // namespace Perimorph::Application

@@ -1,0 +1,68 @@
+#include <perimorph/application/simulation_parameters.h>
+
+namespace Perimorph::Application
+{
+  template <int dim>
+  void
+  SimulationParameters<dim>::read_cracks(const ParameterTexts      &texts,
+                                         Base::InputErrorCollector &errors)
+  {
+    coupling.crack_rule     = texts.crack_treatment == "consistent"
+                                ? Coupling::CrackRule::consistent
+                                : Coupling::CrackRule::shape_tensor;
+    pre_cracks              = Parameters::parse_polylines("Cracks / pre-cracks",
+                                             texts.pre_cracks,
+                                             dim,
+                                             errors);
+    growth.active           = texts.crack_growth != "none";
+    growth.events           = texts.growth_control == "events";
+    growth.fracture_energy  = texts.fracture_energy;
+    growth.maximum_advances = texts.maximum_advances;
+    growth.advance = Parameters::parse_length("Cracks / advance length",
+                                              texts.advance_length,
+                                              false,
+                                              errors);
+    if (!growth.active)
+      return;
+    if (dim == 3)
+      errors.add_parameter("Cracks / growth",
+                           "'" + texts.crack_growth + "' in 3D",
+                           "none",
+                           "Cracks grow in 2D only.");
+    if (pre_cracks.empty() && texts.pre_cracks.empty())
+      errors.add_parameter("Cracks / growth",
+                           "'" + texts.crack_growth + "' without a crack",
+                           "at least one crack in 'Cracks / pre-cracks'");
+    if (!(growth.fracture_energy > 0.))
+      errors.add_parameter("Cracks / fracture energy",
+                           "nothing or 0",
+                           "a number > 0");
+    if (growth.advance.value <= 0.)
+      errors.add_parameter("Cracks / advance length",
+                           "'" + texts.advance_length + "'",
+                           "a length > 0");
+    if (region.mode == Mesh::Mode::finite_elements)
+      errors.add_parameter("Cracks / growth",
+                           "'" + texts.crack_growth +
+                             "' with Mode = finite elements",
+                           "coupled, peridynamics",
+                           "Elements cannot be cut.");
+    if (coupling.scheme != Coupling::Scheme::consistent)
+      errors.add_parameter("Cracks / growth",
+                           "'" + texts.crack_growth + "' with coupling '" +
+                             texts.coupling + "'",
+                           "coupling = consistent");
+    if (growth.events && (finite_strain() || texts.control != "load"))
+      errors.add_parameter("Cracks / growth control",
+                           "'events' in a nonlinear problem",
+                           "load steps",
+                           "Loads can be scaled in linear problems only.");
+  }
+
+  template void
+  SimulationParameters<2>::read_cracks(const ParameterTexts &,
+                                       Base::InputErrorCollector &);
+  template void
+  SimulationParameters<3>::read_cracks(const ParameterTexts &,
+                                       Base::InputErrorCollector &);
+} // namespace Perimorph::Application

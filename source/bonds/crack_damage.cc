@@ -1,0 +1,58 @@
+#include <perimorph/base/point_cloud.h>
+#include <perimorph/bonds/crack_damage.h>
+#include <perimorph/bonds/support_search.h>
+
+namespace Perimorph::Bonds
+{
+  template <int dim>
+  std::vector<double>
+  crack_damage(const Mesh::NodalMesh<dim> &mesh,
+               const std::vector<double>  &alpha,
+               const std::vector<double>  &horizon,
+               const CrackSet<dim>        &cracks,
+               std::size_t                &n_hidden)
+  {
+    n_hidden = 0;
+    std::vector<double> damage(mesh.n_nodes(), 0.);
+    if (cracks.empty())
+      return damage;
+    const Base::PointCloud<dim> cloud(mesh.nodes);
+    std::vector<unsigned int>   near;
+    for (unsigned int n = 0; n < mesh.n_nodes(); ++n)
+      {
+        dealii::BoundingBox<dim> box(
+          std::make_pair(mesh.nodes[n], mesh.nodes[n]));
+        box.extend(horizon[n]);
+        cracks.near(box, near);
+        if (!(alpha[n] > 0.) || near.empty())
+          continue;
+        double volume = 0., hidden = 0.;
+        cloud.within(mesh.nodes[n], horizon[n] * (1. + horizon_slack), near);
+        for (const unsigned int k : near)
+          if (k != n)
+            {
+              volume += mesh.volume[k];
+              if (cracks.crosses(mesh.nodes[n], mesh.nodes[k]))
+                {
+                  hidden += mesh.volume[k];
+                  ++n_hidden;
+                }
+            }
+        damage[n] = volume > 0. ? hidden / volume : 0.;
+      }
+    return damage;
+  }
+
+  template std::vector<double>
+  crack_damage<2>(const Mesh::NodalMesh<2> &,
+                  const std::vector<double> &,
+                  const std::vector<double> &,
+                  const CrackSet<2> &,
+                  std::size_t &);
+  template std::vector<double>
+  crack_damage<3>(const Mesh::NodalMesh<3> &,
+                  const std::vector<double> &,
+                  const std::vector<double> &,
+                  const CrackSet<3> &,
+                  std::size_t &);
+} // namespace Perimorph::Bonds
