@@ -51,6 +51,36 @@ namespace Perimorph::Fracture
     return q;
   }
 
+  namespace
+  {
+    /// Divergence of the interaction flux: what keeps auxiliary fields that
+    /// turn with a curved front from equilibrium and compatibility,
+    /// (P t) . (dG e) - (t . e) P : dG + (dS t) . (H e) with the derivatives
+    /// dG = W G - G W, dS = W S - S W along the tangent t, W = rate (t (x) d -
+    /// d (x) t), d the direction of growth at x and e that of the advance.
+    template <int dim>
+    double
+    flux_divergence(const StressPoint<dim>       &point,
+                    const dealii::Tensor<1, dim> &advance,
+                    const TipFrame<dim>          &frame,
+                    const NearTipState<dim>      &other)
+    {
+      const auto  &forward = frame.axes.front();
+      const auto  &tangent = frame.axes.back();
+      const double rate =
+        frame.curvature /
+        (1. + frame.curvature * (forward * (point.x - frame.origin)));
+      const auto  turn = rate * (dealii::outer_product(tangent, forward) -
+                                dealii::outer_product(forward, tangent));
+      const auto &P    = point.first_piola_kirchhoff;
+      const auto  dG   = turn * other.gradient - other.gradient * turn;
+      const auto  dS   = turn * other.stress - other.stress * turn;
+      return (P * tangent) * (dG * advance) -
+             (tangent * advance) * dealii::scalar_product(P, dG) +
+             (dS * tangent) * (point.displacement_gradient * advance);
+    }
+  } // namespace
+
   template <int dim>
   FractureQuantities
   fracture_quantities(const StressPointSet<dim>    &set,
@@ -68,7 +98,7 @@ namespace Perimorph::Fracture
     std::array<double, 4> sums = {}; // three interactions, J
     for (const auto &point : set.points)
       {
-        if (point.q_gradient.norm_square() == 0.)
+        if (point.q_gradient.norm_square() == 0. && (dim == 2 || point.q == 0.))
           continue;
         const auto &H       = point.displacement_gradient;
         const auto &P       = point.first_piola_kirchhoff;
@@ -83,6 +113,9 @@ namespace Perimorph::Fracture
           {
             const auto other =
               near_tip_state(fields[k], constants, frame, point.x);
+            if (frame.curvature != 0.)
+              sums[k] += point.volume * point.q *
+                         flux_divergence(point, direction, frame, other);
             sums[k] += point.volume *
                        (other.gradient * direction * flux +
                         u_along * (other.stress * slope) -
@@ -117,7 +150,7 @@ namespace Perimorph::Fracture
                       const NearTipConstants   &constants,
                       const MPI_Comm            communicator)
   {
-    set.differentiate(annulus_weights(mesh, tip.origin, annulus));
+    set.set_weight(annulus_weights(mesh, tip.origin, annulus));
     return fracture_quantities<2>(
       set,
       tip.axes[0],

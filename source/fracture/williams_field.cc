@@ -90,7 +90,7 @@ namespace Perimorph::Fracture
             const dealii::Tensor<1, 2> &direction)
   {
     const dealii::Tensor<1, 2> along = direction / direction.norm();
-    return {origin, {{along, dealii::Tensor<1, 2>({-along[1], along[0]})}}};
+    return {origin, {{along, dealii::Tensor<1, 2>({-along[1], along[0]})}}, 0.};
   }
 
   template <int dim>

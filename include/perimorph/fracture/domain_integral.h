@@ -67,7 +67,7 @@ namespace Perimorph::Fracture
 
   /// J = sum volume (P_ij H_i1 - W delta_1j) dq/dx_j along the direction of
   /// advance, and the interaction integrals with the near-tip fields. The
-  /// points hold the gradient of q (StressPointSet::differentiate).
+  /// points hold the gradient of q (StressPointSet::set_weight).
   ///
   /// The crack must be straight, free of traction and alone within the
   /// annulus, the body homogeneous and free of body forces. K and T belong to

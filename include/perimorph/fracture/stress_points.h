@@ -20,10 +20,11 @@ namespace Perimorph::Fracture
     dealii::Tensor<2, dim> displacement_gradient; ///< [i][j] = du_i / dX_j
     dealii::Tensor<2, dim> first_piola_kirchhoff;
     double                 energy_density;
-    dealii::Tensor<1, dim> q_gradient; ///< of the weight of a domain integral
+    double                 q; ///< weight of a domain integral
+    dealii::Tensor<1, dim> q_gradient;
   };
 
-  /// Stress points of a rank, and the operator that each takes gradients with.
+  /// Stress points of a rank, and how each takes values and gradients.
   template <int dim>
   struct StressPointSet
   {
@@ -31,16 +32,17 @@ namespace Perimorph::Fracture
 
     std::vector<std::size_t>            offsets = {0};   ///< per point
     std::vector<unsigned int>           node;            ///< global
+    std::vector<double>                 value_weight;    ///< [-]
     std::vector<dealii::Tensor<1, dim>> gradient_weight; ///< [1 / length]
 
     /// Points where no gradient could be found (fewer than dim + 1 nodes on
     /// their side of the cracks) or that the law has no answer for: left out.
     unsigned int n_without_stress = 0;
 
-    /// Sets q_gradient of all points.
+    /// Sets q and q_gradient of all points.
     /// @param q  one value per node of the mesh
     void
-    differentiate(const std::vector<double> &q);
+    set_weight(const std::vector<double> &q);
   };
 
   /// What a stress field is made of.
@@ -83,8 +85,8 @@ namespace Perimorph::Fracture
 
   /// Adds points in all cells of this rank with the full law, whoever carries
   /// the energy: the finite-element gradient at the Gauss points of cells that
-  /// no crack touches; in the others 4 points along each axis with the gradient
-  /// of a one-sided fit. For bond-based peridynamics, whose bonds have no
+  /// no crack touches; in the others the gradient of a one-sided fit, in 2D at
+  /// 4 points along each axis. For bond-based peridynamics, whose bonds have no
   /// stress point, and as a check of the families.
   /// @param fit  see visible_fit()
   template <int dim>

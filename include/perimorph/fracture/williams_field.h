@@ -18,6 +18,8 @@ namespace Perimorph::Fracture
     /// Direction of growth, normal of the crack, in 3D tangent of the front:
     /// orthonormal and right-handed.
     std::array<dealii::Tensor<1, dim>, dim> axes;
+    /// Of the front in space [1 / length]: 1 / radius for a penny crack.
+    double curvature = 0.;
   };
 
   /// Axes for a direction in 2D; the normal is the direction turned left.

@@ -29,7 +29,7 @@ namespace
           const double theta = -pi + (m + 0.5) * turn;
           const auto   radial =
             std::cos(theta) * frame.axes[0] + std::sin(theta) * frame.axes[1];
-          StressPoint<2> point;
+          StressPoint<2> point        = {};
           point.x                     = body.tip + r * radial;
           point.volume                = r * width * turn;
           const auto state            = body.at(point.x);

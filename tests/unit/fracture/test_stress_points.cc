@@ -187,7 +187,7 @@ namespace
     for (const auto source : {Source::cells, Source::families_and_elements})
       {
         auto set = plate.points(source);
-        set.differentiate(q);
+        set.set_weight(q);
         ASSERT_GT(set.points.size(), 500u);
         for (const auto &point : set.points)
           EXPECT_LT((point.q_gradient - slope).norm(), 1e-12);

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <perimorph/fracture/displacement_fit.h>
+#include <perimorph/fracture/williams_field.h>
+
+#include <array>
+#include <vector>
+
+namespace Perimorph::Fracture
+{
+  /// Stress intensity factors from the displacement between the crack faces.
+  struct OpeningFactors
+  {
+    double K_I  = 0.; ///< [stress * length^(1/2)]
+    double K_II = 0.;
+    /// Places that had enough nodes on both sides; with fewer than three the
+    /// factors are not numbers.
+    unsigned int n_places = 0;
+  };
+
+  /// K(r) = E' / 8 sqrt(2 pi / r) times the opening (mode I) or sliding (mode
+  /// II) at a distance r behind the tip, at 16 places in 0.15 < r / length <
+  /// 0.6, extrapolated to the tip by a straight line (numerics.md, Q4). A
+  /// check: less accurate than the domain integral. The crack must be straight
+  /// there.
+  /// @param fit           one that does not see past the crack (visible_fit)
+  /// @param displacement  one vector per node of the mesh
+  /// @param length        crack length, or the half of it with two tips
+  template <int dim>
+  OpeningFactors
+  factors_from_opening(const DisplacementFit<dim>                &fit,
+                       const std::vector<dealii::Tensor<1, dim>> &displacement,
+                       const TipFrame<dim>                       &tip,
+                       double                                     length,
+                       const NearTipConstants                    &constants);
+} // namespace Perimorph::Fracture

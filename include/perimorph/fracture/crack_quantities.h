@@ -1,0 +1,70 @@
+#pragma once
+
+#include <perimorph/fracture/crack_opening.h>
+#include <perimorph/fracture/front_integral.h>
+
+namespace Perimorph::Fracture
+{
+  /// Who carries the energy around the cracks.
+  template <int dim>
+  struct CrackedBody
+  {
+    DeformedBody<dim>           body;
+    const Bonds::CrackSet<dim> &cracks;
+    const std::vector<double>  &alpha;   ///< per node, 1 = peridynamics
+    const std::vector<double>  &horizon; ///< per node [length]
+    /// Of this rank. Without them (bond-based peridynamics, cross checks) the
+    /// law is evaluated in all cells, whatever alpha.
+    const Peridynamics::FamilySet<dim> *families = nullptr;
+    /// For the fits at the crack.
+    std::vector<MirrorPlane<dim>> planes = {};
+  };
+
+  /// Values at a tip on each annulus; the first is the one to report.
+  struct TipQuantities
+  {
+    CrackTip                        tip;
+    std::vector<Annulus>            annuli; ///< none: no room, no values
+    std::vector<FractureQuantities> values;
+    OpeningFactors                  opening; ///< a check of the factors
+
+    /// Largest change of J over the annuli relative to the first; not a number
+    /// with fewer than two.
+    double
+    domain_dependence() const;
+  };
+
+  /// All tips of a plane body, in the order of find_tips(), the same on every
+  /// rank. Collective.
+  /// @param annuli  of every tip; empty: default_annuli() of each
+  std::vector<TipQuantities>
+  tip_quantities(const CrackedBody<2>       &body,
+                 const std::vector<Annulus> &annuli,
+                 MPI_Comm                    communicator);
+
+  /// Values at points of a front on each annulus.
+  struct FrontQuantities
+  {
+    CrackFront           front;
+    std::vector<double>  stations; ///< arc lengths
+    double               half_width = 0.;
+    std::vector<Annulus> annuli;
+    /// values[station][annulus]
+    std::vector<std::vector<FractureQuantities>> values;
+  };
+
+  /// All fronts of a body in space, in the order of find_fronts(). Collective.
+  ///
+  /// The tents are 4 spacings of the mesh at the front wide to each side or
+  /// reach to the neighbouring stations, whichever is wider, but not over more
+  /// than a quarter of a front: narrower ones let the factors scatter with the
+  /// place of the nodes (penny crack, 2 spacings 4 %, 4 spacings 1.5 %).
+  /// @param n_stations  points per front
+  /// @param annuli      of every front; empty: default_annuli() of each, for
+  ///                    the length of the front over 2 pi
+  std::vector<FrontQuantities>
+  front_quantities(const CrackedBody<3>       &body,
+                   unsigned int                n_stations,
+                   const std::vector<Annulus> &annuli,
+                   MPI_Comm                    communicator);
+} // namespace Perimorph::Fracture

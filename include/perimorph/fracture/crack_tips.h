@@ -1,0 +1,87 @@
+#pragma once
+
+#include <perimorph/bonds/crack_set.h>
+#include <perimorph/fracture/williams_field.h>
+#include <perimorph/mesh/nodal_mesh.h>
+
+#include <vector>
+
+namespace Perimorph::Fracture
+{
+  /// An end of a plane crack inside the body.
+  struct CrackTip
+  {
+    TipFrame<2>  frame;
+    unsigned int crack; ///< CrackFacet::crack
+    unsigned int facet; ///< index of the facet that ends here
+    /// Length of the crack over its number of tips: the half length of a crack
+    /// inside the body, the length of an edge crack.
+    double crack_length;
+    /// Distance to the nearest boundary, kink, or other crack: the crack is
+    /// straight and alone within. Growth that turns by less than 6 degrees
+    /// counts as straight.
+    double free_distance;
+  };
+
+  /// All tips: ends that touch no other facet and lie inside the body. In the
+  /// order of the cracks, of one crack in the order of the first ends that they
+  /// grew from, so that an advance does not change the order.
+  std::vector<CrackTip>
+  find_tips(const Mesh::NodalMesh<2> &mesh, const Bonds::CrackSet<2> &cracks);
+
+  /// The part of the edge of a plane crack in space that lies inside the body.
+  struct CrackFront
+  {
+    unsigned int                  crack = 0;
+    std::vector<dealii::Point<3>> vertices;
+    bool                          closed = false;
+    dealii::Tensor<1, 3>          normal; ///< of the crack
+    /// Of the front at the vertices, along rising arc length; the direction of
+    /// growth is normal x tangent.
+    std::vector<dealii::Tensor<1, 3>> tangents;
+    /// Arc length at each vertex; the last entry is the whole length.
+    std::vector<double> arc_length;
+    double              free_distance = 0.; ///< smallest along the front
+
+    double
+    length() const
+    {
+      return arc_length.back();
+    }
+
+    /// Axes at the nearest point of the front, tangents interpolated between
+    /// the vertices, and the arc length there.
+    struct Place
+    {
+      TipFrame<3> frame;
+      double      arc_length;
+    };
+
+    Place
+    nearest(const dealii::Point<3> &point) const;
+
+    Place
+    at(double arc_length) const;
+
+    /// Arc lengths of points at equal distances, the ends left out.
+    std::vector<double>
+    stations(unsigned int n) const;
+  };
+
+  /// All fronts, in the order of the cracks: chains of edges that belong to one
+  /// triangle only, inside the body and not on another crack. Corners that
+  /// triangles share must agree exactly.
+  std::vector<CrackFront>
+  find_fronts(const Mesh::NodalMesh<3> &mesh, const Bonds::CrackSet<3> &cracks);
+
+  /// True in a cell of the mesh and not on its surface.
+  template <int dim>
+  bool
+  is_inside(const Mesh::NodalMesh<dim> &mesh, const dealii::Point<dim> &point);
+
+  /// Distance to the surface of the body (faces in space as two triangles).
+  template <int dim>
+  double
+  boundary_distance(const Mesh::NodalMesh<dim> &mesh,
+                    const dealii::Point<dim>   &point);
+} // namespace Perimorph::Fracture

@@ -1,0 +1,75 @@
+#include <perimorph/fracture/crack_opening.h>
+
+#include <cmath>
+#include <limits>
+
+namespace Perimorph::Fracture
+{
+  template <int dim>
+  OpeningFactors
+  factors_from_opening(const DisplacementFit<dim>                &fit,
+                       const std::vector<dealii::Tensor<1, dim>> &displacement,
+                       const TipFrame<dim>                       &tip,
+                       const double                               length,
+                       const NearTipConstants                    &constants)
+  {
+    constexpr unsigned int n_places = 16;
+    constexpr double       nearest = 0.15, farthest = 0.6;
+    const double           pi    = std::acos(-1.);
+    const double           scale = constants.plane_modulus() / 8.;
+
+    // sums of a straight line through K(r), for both modes
+    double                n = 0., sum_r = 0., sum_rr = 0.;
+    std::array<double, 2> sum = {}, sum_times_r = {};
+    for (unsigned int k = 0; k < n_places; ++k)
+      {
+        const double r =
+          length * (nearest + (farthest - nearest) * (k + 0.5) / n_places);
+        const auto   middle  = tip.origin - r * tip.axes[0];
+        const double spacing = fit.length_at(middle);
+        const auto   upper   = fit.fit(middle + 1e-6 * spacing * tip.axes[1],
+                                   spacing,
+                                   DisplacementFit<dim>::any_material,
+                                   displacement);
+        const auto   lower   = fit.fit(middle - 1e-6 * spacing * tip.axes[1],
+                                   spacing,
+                                   DisplacementFit<dim>::any_material,
+                                   displacement);
+        if (upper.n_nodes == 0 || lower.n_nodes == 0)
+          continue;
+        const auto jump = upper.displacement - lower.displacement;
+        n += 1.;
+        sum_r += r;
+        sum_rr += r * r;
+        for (unsigned int mode = 0; mode < 2; ++mode)
+          {
+            const double factor = scale * std::sqrt(2. * pi / r) *
+                                  (jump * tip.axes[mode == 0 ? 1 : 0]);
+            sum[mode] += factor;
+            sum_times_r[mode] += r * factor;
+          }
+      }
+
+    OpeningFactors result;
+    result.n_places  = static_cast<unsigned int>(n);
+    const auto value = [&](const unsigned int mode) {
+      return n < 3. ? std::numeric_limits<double>::quiet_NaN()
+                    : (sum_rr * sum[mode] - sum_r * sum_times_r[mode]) /
+                        (n * sum_rr - sum_r * sum_r);
+    };
+    result.K_I  = value(0);
+    result.K_II = value(1);
+    return result;
+  }
+
+#define INSTANTIATE(dim)                             \
+  template OpeningFactors factors_from_opening<dim>( \
+    const DisplacementFit<dim> &,                    \
+    const std::vector<dealii::Tensor<1, dim>> &,     \
+    const TipFrame<dim> &,                           \
+    double,                                          \
+    const NearTipConstants &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Perimorph::Fracture

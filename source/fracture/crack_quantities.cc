@@ -1,0 +1,161 @@
+#include <perimorph/fracture/crack_quantities.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Perimorph::Fracture
+{
+  namespace
+  {
+    /// What the mesh and the law are like at a place.
+    struct Surroundings
+    {
+      double           spacing;
+      double           horizon;
+      NearTipConstants constants;
+    };
+
+    template <int dim>
+    Surroundings
+    surroundings(const CrackedBody<dim>     &cracked,
+                 const DisplacementFit<dim> &fit,
+                 const dealii::Point<dim>   &point)
+    {
+      const auto        &mesh = cracked.body.mesh;
+      const unsigned int node = fit.nearest_node(point);
+      const unsigned int material =
+        mesh.cell_material[mesh.node_cells.row(node)[0]];
+      return {mesh.spacing[node],
+              cracked.alpha[node] > 0. ? cracked.horizon[node] : 0.,
+              near_tip_constants(*cracked.body.materials[material])};
+    }
+
+    template <int dim>
+    StressPointSet<dim>
+    stress_points(const CrackedBody<dim>     &cracked,
+                  const DisplacementFit<dim> &fit,
+                  const std::vector<bool>    &region)
+    {
+      StressPointSet<dim> set;
+      if (cracked.families == nullptr)
+        add_cell_points(cracked.body, cracked.cracks, fit, region, set);
+      else
+        {
+          add_element_points(cracked.body, cracked.alpha, region, set);
+          add_family_points(cracked.body, *cracked.families, region, set);
+        }
+      return set;
+    }
+
+    double
+    largest_radius(const std::vector<Annulus> &annuli)
+    {
+      double radius = 0.;
+      for (const auto &annulus : annuli)
+        radius = std::max(radius, annulus.outer);
+      return radius;
+    }
+  } // namespace
+
+  double
+  TipQuantities::domain_dependence() const
+  {
+    if (values.size() < 2)
+      return std::numeric_limits<double>::quiet_NaN();
+    double largest = 0.;
+    for (const auto &value : values)
+      largest = std::max(largest, std::abs(value.J - values[0].J));
+    return largest / std::abs(values[0].J);
+  }
+
+  std::vector<TipQuantities>
+  tip_quantities(const CrackedBody<2>       &cracked,
+                 const std::vector<Annulus> &annuli,
+                 const MPI_Comm              communicator)
+  {
+    const auto &mesh = cracked.body.mesh;
+    const auto  fit  = visible_fit(mesh, cracked.cracks, cracked.planes);
+    std::vector<TipQuantities> all;
+    for (const auto &tip : find_tips(mesh, cracked.cracks))
+      {
+        TipQuantities      result;
+        const Surroundings around =
+          surroundings(cracked, *fit, tip.frame.origin);
+        result.tip    = tip;
+        result.annuli = annuli.empty() ? default_annuli(tip.crack_length,
+                                                        tip.free_distance,
+                                                        around.horizon,
+                                                        around.spacing)
+                                       : annuli;
+        auto set =
+          stress_points(cracked,
+                        *fit,
+                        nodes_within<2>(mesh,
+                                        {tip.frame.origin},
+                                        largest_radius(result.annuli)));
+        for (const auto &annulus : result.annuli)
+          result.values.push_back(fracture_quantities(set,
+                                                      mesh,
+                                                      tip.frame,
+                                                      annulus,
+                                                      around.constants,
+                                                      communicator));
+        result.opening =
+          factors_from_opening(*fit,
+                               cracked.body.displacement,
+                               tip.frame,
+                               std::min(tip.crack_length, tip.free_distance),
+                               around.constants);
+        all.push_back(std::move(result));
+      }
+    return all;
+  }
+
+  std::vector<FrontQuantities>
+  front_quantities(const CrackedBody<3>       &cracked,
+                   const unsigned int          n_stations,
+                   const std::vector<Annulus> &annuli,
+                   const MPI_Comm              communicator)
+  {
+    const double pi   = std::acos(-1.);
+    const auto  &mesh = cracked.body.mesh;
+    const auto   fit  = visible_fit(mesh, cracked.cracks, cracked.planes);
+    std::vector<FrontQuantities> all;
+    for (const auto &front : find_fronts(mesh, cracked.cracks))
+      {
+        FrontQuantities    result;
+        const Surroundings around =
+          surroundings(cracked, *fit, front.vertices[0]);
+        const double length = front.length();
+        result.front        = front;
+        result.stations     = front.stations(n_stations);
+        result.half_width =
+          std::min(0.25 * length,
+                   std::max(4. * around.spacing, length / n_stations));
+        result.annuli = annuli.empty() ? default_annuli(length / (2. * pi),
+                                                        front.free_distance,
+                                                        around.horizon,
+                                                        around.spacing)
+                                       : annuli;
+        auto set      = stress_points(
+          cracked,
+          *fit,
+          nodes_near_front(mesh, front, largest_radius(result.annuli)));
+        for (const double station : result.stations)
+          {
+            result.values.emplace_back();
+            for (const auto &annulus : result.annuli)
+              result.values.back().push_back(
+                fracture_quantities(set,
+                                    mesh,
+                                    front,
+                                    {station, result.half_width, annulus},
+                                    around.constants,
+                                    communicator));
+          }
+        all.push_back(std::move(result));
+      }
+    return all;
+  }
+} // namespace Perimorph::Fracture

@@ -1,0 +1,188 @@
+#include <perimorph/fracture/crack_tips.h>
+#include <perimorph/mesh/cell_geometry.h>
+#include <perimorph/mesh/feature_distance.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <tuple>
+
+namespace Perimorph::Fracture
+{
+  namespace
+  {
+    // What counts as touching, relative to the size of a facet or face.
+    constexpr double touch = 1e-6;
+
+    // Deviation over distance from the tip of what counts as straight.
+    constexpr double straight = 0.1;
+
+    double
+    distance(const Bonds::CrackFacet<2> &facet, const dealii::Point<2> &point)
+    {
+      return point.distance(
+        Mesh::closest_on_segment(point, facet.corners[0], facet.corners[1]));
+    }
+
+    /// A facet and the number of its corner that is the free end.
+    struct End
+    {
+      unsigned int facet;
+      unsigned int corner;
+    };
+
+    /// The end that a tip has grown from: back along the facets of later steps.
+    End
+    first_end(const std::vector<Bonds::CrackFacet<2>> &facets, End end)
+    {
+      while (facets[end.facet].step > 0)
+        {
+          const auto  &facet = facets[end.facet];
+          const auto  &back  = facet.corners[1 - end.corner];
+          const double reach = touch * facet.measure();
+          bool         found = false;
+          for (unsigned int g = 0; g < facets.size() && !found; ++g)
+            if (g != end.facet &&
+                std::tie(facets[g].step, g) < std::tie(facet.step, end.facet))
+              for (unsigned int corner = 0; corner < 2 && !found; ++corner)
+                if (facets[g].corners[corner].distance(back) <= reach)
+                  {
+                    end   = {g, corner};
+                    found = true;
+                  }
+          if (!found)
+            break;
+        }
+      return end;
+    }
+
+    /// Distance to the nearest boundary or facet that leaves the line behind
+    /// the tip.
+    double
+    free_distance(const Mesh::NodalMesh<2>                &mesh,
+                  const std::vector<Bonds::CrackFacet<2>> &facets,
+                  const TipFrame<2>                       &tip)
+    {
+      double smallest = boundary_distance(mesh, tip.origin);
+      for (const auto &facet : facets)
+        {
+          bool aside = false;
+          for (const auto &corner : facet.corners)
+            {
+              const auto away = corner - tip.origin;
+              if (std::abs(away * tip.axes[1]) > straight * away.norm() ||
+                  away * tip.axes[0] > straight * away.norm())
+                aside = true;
+            }
+          if (aside)
+            smallest = std::min(smallest, distance(facet, tip.origin));
+        }
+      return smallest;
+    }
+  } // namespace
+
+  template <int dim>
+  double
+  boundary_distance(const Mesh::NodalMesh<dim> &mesh,
+                    const dealii::Point<dim>   &point)
+  {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const auto &face : mesh.boundary_faces)
+      {
+        const auto corner = [&](const unsigned int v) {
+          return mesh.nodes[face.nodes[v]];
+        };
+        if constexpr (dim == 2)
+          smallest =
+            std::min(smallest,
+                     point.distance(
+                       Mesh::closest_on_segment(point, corner(0), corner(1))));
+        else
+          for (const unsigned int v : {0u, 3u})
+            smallest =
+              std::min(smallest,
+                       point.distance(Mesh::closest_on_triangle(point,
+                                                                corner(1),
+                                                                corner(2),
+                                                                corner(v))));
+      }
+    return smallest;
+  }
+
+  template <int dim>
+  bool
+  is_inside(const Mesh::NodalMesh<dim> &mesh, const dealii::Point<dim> &point)
+  {
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      {
+        const auto                     corners = mesh.corners(c);
+        const dealii::BoundingBox<dim> box(
+          std::vector<dealii::Point<dim>>(corners.begin(), corners.end()));
+        if (!box.point_inside(point))
+          continue;
+        dealii::Point<dim> unit;
+        if (!Mesh::map_to_unit_cell<dim>(corners, point, unit))
+          continue;
+        bool inside = true;
+        for (int d = 0; d < dim; ++d)
+          inside = inside && unit[d] > -touch && unit[d] < 1. + touch;
+        if (inside)
+          return boundary_distance(mesh, point) >
+                 touch * corners.front().distance(corners.back());
+      }
+    return false;
+  }
+
+  std::vector<CrackTip>
+  find_tips(const Mesh::NodalMesh<2> &mesh, const Bonds::CrackSet<2> &cracks)
+  {
+    const auto &facets = cracks.facets();
+
+    using Key = std::tuple<unsigned int, unsigned int, unsigned int, unsigned>;
+    std::vector<std::pair<Key, CrackTip>> found;
+    std::map<unsigned int, double>        lengths;
+    std::map<unsigned int, unsigned int>  n_tips;
+    for (unsigned int f = 0; f < facets.size(); ++f)
+      {
+        lengths[facets[f].crack] += facets[f].measure();
+        for (unsigned int corner = 0; corner < 2; ++corner)
+          {
+            const auto  &end   = facets[f].corners[corner];
+            const double reach = touch * facets[f].measure();
+            bool         free  = true;
+            for (unsigned int g = 0; g < facets.size() && free; ++g)
+              free = g == f || distance(facets[g], end) > reach;
+            if (!free || !is_inside(mesh, end))
+              continue;
+            CrackTip tip;
+            tip.frame = tip_frame(end, end - facets[f].corners[1 - corner]);
+            tip.crack = facets[f].crack;
+            tip.facet = f;
+            tip.crack_length  = 0.;
+            tip.free_distance = free_distance(mesh, facets, tip.frame);
+            const End root    = first_end(facets, {f, corner});
+            found.emplace_back(Key(tip.crack, root.facet, root.corner, f), tip);
+            ++n_tips[tip.crack];
+          }
+      }
+    std::sort(found.begin(), found.end(), [](const auto &a, const auto &b) {
+      return a.first < b.first;
+    });
+    std::vector<CrackTip> tips;
+    for (const auto &[key, tip] : found)
+      {
+        tips.push_back(tip);
+        tips.back().crack_length = lengths[tip.crack] / n_tips[tip.crack];
+      }
+    return tips;
+  }
+
+#define INSTANTIATE(dim)                                               \
+  template bool   is_inside<dim>(const Mesh::NodalMesh<dim> &,         \
+                               const dealii::Point<dim> &);          \
+  template double boundary_distance<dim>(const Mesh::NodalMesh<dim> &, \
+                                         const dealii::Point<dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Perimorph::Fracture

@@ -1,0 +1,165 @@
+#include <perimorph/fracture/crack_quantities.h>
+
+#include "near_tip_bodies.h"
+#include <gtest/gtest.h>
+
+#include <complex>
+
+namespace
+{
+  using namespace Perimorph;
+  using namespace Perimorph::Fracture;
+  using Complex = std::complex<double>;
+
+  constexpr double half_length = 1.;
+
+  /// Infinite plate in plane strain, E = 1, crack of length 2 in a direction,
+  /// tension 1 along y (complex potentials of Muskhelishvili).
+  class SlantCrack
+  {
+  public:
+    SlantCrack(const double angle, const dealii::Point<2> &center)
+      : turn(std::polar(1., angle))
+      , center(center[0], center[1])
+      , normal(std::cos(angle) * std::cos(angle))
+      , shear(std::sin(angle) * std::cos(angle))
+      , along(std::sin(angle) * std::sin(angle))
+      , constants(Testing::NearTipCase().constants())
+    {}
+
+    dealii::Tensor<1, 2>
+    displacement(const dealii::Point<2> &x) const
+    {
+      // Loads on the faces, normal and shear, and the uniform field.
+      const Complex z = (Complex(x[0], x[1]) - center) / turn;
+      const Complex u = (faces(z) + uniform(z)) * turn;
+      return dealii::Tensor<1, 2>({u.real(), u.imag()});
+    }
+
+    double
+    K_I() const
+    {
+      return normal * std::sqrt(std::acos(-1.) * half_length);
+    }
+
+    double
+    K_II() const
+    {
+      return shear * std::sqrt(std::acos(-1.) * half_length);
+    }
+
+    Bonds::CrackSet<2>
+    crack() const
+    {
+      Bonds::CrackFacet<2> facet;
+      for (unsigned int k = 0; k < 2; ++k)
+        {
+          const Complex end =
+            center + (k == 0 ? -half_length : half_length) * turn;
+          facet.corners[k] = dealii::Point<2>(end.real(), end.imag());
+        }
+      return Bonds::CrackSet<2>({facet});
+    }
+
+  private:
+    Complex          turn, center;
+    double           normal, shear, along; ///< stress in the axes of the crack
+    NearTipConstants constants;
+
+    /// sqrt(z^2 - a^2) with the cut on the crack.
+    static Complex
+    root(const Complex z)
+    {
+      return std::sqrt(z - half_length) * std::sqrt(z + half_length);
+    }
+
+    /// phi = omega = (s - i t) / 2 (root - z): opposite tractions on the faces.
+    Complex
+    faces(const Complex z) const
+    {
+      const Complex load(0.5 * normal, -0.5 * shear);
+      const Complex slope = load * (z / root(z) - 1.);
+      const Complex other = load * (root(std::conj(z)) - std::conj(z));
+      return (constants.kolosov * load * (root(z) - z) - other -
+              (z - std::conj(z)) * std::conj(slope)) /
+             (2. * constants.shear_modulus);
+    }
+
+    /// Strains of the uniform stress, by lambda and mu of plane strain.
+    Complex
+    uniform(const Complex z) const
+    {
+      const double mu    = constants.shear_modulus;
+      const double share = 0.25 * (3. - constants.kolosov); // Poisson's ratio
+      const double mean  = share * (normal + along);
+      const double e_x   = (along - mean) / (2. * mu),
+                   e_y   = (normal - mean) / (2. * mu);
+      const double e_xy  = shear / (2. * mu);
+      return Complex(e_x * z.real() + e_xy * z.imag(),
+                     e_xy * z.real() + e_y * z.imag());
+    }
+  };
+
+  // Both tips of a crack, from the exact displacement of the nodes: everything
+  // between the parameter file and the numbers but the solve.
+  // K_I = s sqrt(pi a) cos^2 b, K_II = s sqrt(pi a) sin b cos b. Tolerances:
+  // about 1.3 times the errors measured.
+  TEST(CrackQuantities, both_tips_of_a_slant_crack)
+  {
+    const unsigned int n     = 48; // h = a / 12
+    const double       angle = 0.4;
+    const SlantCrack   exact(angle, dealii::Point<2>(0.02, -0.03));
+    const auto         mesh  = Testing::structured_mesh<2>({{n, n}},
+                                                  dealii::Point<2>(-2., -2.),
+                                                  dealii::Point<2>(2., 2.),
+                                                  0.2);
+    const auto         state = Testing::NearTipCase().state;
+    const auto         materials =
+      Testing::unit_material<2>(Testing::near_tip_poissons_ratio, state);
+    std::vector<dealii::Tensor<1, 2>> displacement;
+    for (const auto &x : mesh.nodes)
+      displacement.push_back(exact.displacement(x));
+    const auto                cracks = exact.crack();
+    const std::vector<double> alpha(mesh.n_nodes(), 1.);
+    std::vector<double>       horizon;
+    for (const double h : mesh.spacing)
+      horizon.push_back(1.5 * h);
+    const auto families =
+      Testing::cut_families(mesh, alpha, 1.5, cracks, {1. / 2.6, 1.1, 0.43});
+
+    CrackedBody<2> body = {{mesh, materials, displacement},
+                           cracks,
+                           alpha,
+                           horizon};
+    for (const bool with_families : {false, true})
+      {
+        body.families     = with_families ? &families : nullptr;
+        const auto result = tip_quantities(body, {}, MPI_COMM_SELF);
+        ASSERT_EQ(result.size(), 2u);
+        EXPECT_LT(result[0].tip.frame.axes[0][0], 0.);
+        for (const auto &tip : result)
+          {
+            const double modulus =
+              Testing::NearTipCase().constants().plane_modulus();
+            ASSERT_EQ(tip.values.size(), 2u);
+            EXPECT_LT(tip.domain_dependence(), with_families ? 7e-3 : 1.5e-3);
+            for (const auto &value : tip.values)
+              {
+                EXPECT_NEAR(value.K_I / exact.K_I(),
+                            1.,
+                            with_families ? 1.9e-3 : 1.3e-3);
+                EXPECT_NEAR(value.K_II / exact.K_II(),
+                            1.,
+                            with_families ? 2.1e-2 : 2.5e-3);
+                EXPECT_NEAR(
+                  value.J * modulus /
+                    (exact.K_I() * exact.K_I() + exact.K_II() * exact.K_II()),
+                  1.,
+                  with_families ? 5.5e-3 : 1.4e-3);
+              }
+            EXPECT_NEAR(tip.opening.K_I / exact.K_I(), 1., 8e-3);
+            EXPECT_NEAR(tip.opening.K_II / exact.K_II(), 1., 0.11);
+          }
+      }
+  }
+} // namespace
