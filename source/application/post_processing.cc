@@ -85,14 +85,15 @@ namespace Perimorph::Application
     , mesh(mesh)
     , materials(materials)
     , supports(supports)
+    , cracks(cracks)
   {
-    std::vector<Fracture::MirrorPlane<dim>> planes;
     for (const auto &plane : supports.symmetry_planes())
       planes.push_back({plane.point, plane.normal, plane.nodes});
     fit = Fracture::visible_fit(mesh.nodal(), cracks, planes);
     recovery =
       std::make_unique<Fracture::NodalStress<dim>>(*fit, materials.laws);
     probe = std::make_unique<Fracture::PointProbe<dim>>(*recovery);
+    name_crack_tips();
     Base::InputErrorCollector errors;
     check(errors);
     errors.throw_if_any();
@@ -206,8 +207,9 @@ namespace Perimorph::Application
   std::vector<std::string>
   PostProcessing<dim>::expected_names() const
   {
-    std::vector<std::string> names           = {"strain_energy"};
-    const auto               add_point_names = [&](const std::string &name) {
+    std::vector<std::string> names = {"strain_energy"};
+    add_crack_names(names);
+    const auto add_point_names = [&](const std::string &name) {
       for (int d = 0; d < dim; ++d)
         names.push_back(name + "_displacement_" + letters[d]);
       for (const auto &component : Parameters::stress_components(dim))

@@ -60,7 +60,7 @@ namespace Perimorph::Application
         report_set_up(method);
         const bool complete = solve_load_steps(method);
         const auto state    = gather(method);
-        evaluate(state);
+        evaluate(method, state);
         if (parameters.compare_with_finite_elements &&
             parameters.region.mode != Mesh::Mode::finite_elements)
           compare_with_finite_elements(state);

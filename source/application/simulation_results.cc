@@ -235,11 +235,29 @@ namespace Perimorph::Application
   }
 
   template <int dim>
+  std::vector<NamedQuantity>
+  Simulation<dim>::quantities(const Method     &method,
+                              const State<dim> &state) const
+  {
+    auto       list = post_processing->evaluate(state);
+    const bool own  = method.region.n_core + method.region.n_blending > 0 ||
+                     parameters.region.mode == Mesh::Mode::finite_elements;
+    // The companion with finite elements has no cracks.
+    if (own)
+      for (const auto &quantity : post_processing->crack_quantities(
+             state,
+             method.region,
+             method.problem->correspondence_families()))
+        list.push_back(quantity);
+    return list;
+  }
+
+  template <int dim>
   void
-  Simulation<dim>::evaluate(const State<dim> &state)
+  Simulation<dim>::evaluate(const Method &method, const State<dim> &state)
   {
     const auto timer = timing.scope("recovery");
-    for (const auto &quantity : post_processing->evaluate(state))
+    for (const auto &quantity : quantities(method, state))
       result->set_quantity(quantity.name, quantity.value, quantity.unit);
     for (const auto &reference : parameters.reference_values)
       result->set_reference(reference.first, reference.second);
@@ -274,7 +292,7 @@ namespace Perimorph::Application
                                std::string(error.what()));
       }
     const auto companion = gather(method);
-    for (const auto &quantity : post_processing->evaluate(companion))
+    for (const auto &quantity : quantities(method, companion))
       result->set_companion_quantity(quantity.name,
                                      quantity.value,
                                      quantity.unit);

@@ -315,12 +315,12 @@ namespace Perimorph::Application
       if (parameters.n_steps > 1 || parameters.arc_length ||
           parameters.growth.active)
         {
-          const auto timer      = timing.scope("recovery");
-          const auto quantities = post_processing->evaluate(state);
+          const auto timer  = timing.scope("recovery");
+          const auto values = quantities(method, state);
           if (!quantity_table)
             {
               std::vector<std::string> columns = {"step", "time"};
-              for (const auto &quantity : quantities)
+              for (const auto &quantity : values)
                 columns.push_back(quantity.name);
               Base::collectively(communicator, [&]() {
                 quantity_table = std::make_unique<Output::CsvWriter>(
@@ -331,7 +331,7 @@ namespace Perimorph::Application
               files.push_back("quantities.csv");
             }
           std::vector<Output::CsvCell> row = {step.number, step.time};
-          for (const auto &quantity : quantities)
+          for (const auto &quantity : values)
             row.push_back(quantity.value);
           quantity_table->write_row(row);
         }
@@ -352,7 +352,7 @@ namespace Perimorph::Application
     catch (const Base::SolveError &)
       {
         if (some_step_converged)
-          evaluate(gather(method));
+          evaluate(method, gather(method));
         throw;
       }
   }

@@ -2,6 +2,7 @@
 
 #include <perimorph/application/simulation_parameters.h>
 #include <perimorph/fem/supports.h>
+#include <perimorph/fracture/crack_quantities.h>
 #include <perimorph/fracture/error_norms.h>
 #include <perimorph/fracture/probes.h>
 #include <perimorph/fracture/reference_data.h>
@@ -52,6 +53,15 @@ namespace Perimorph::Application
     std::vector<NamedQuantity>
     evaluate(const State<dim> &state) const;
 
+    /// J, stress intensity factors and T-stress at the tips (2D) or along the
+    /// fronts (3D) of the cracks; NaN where a tip is no more or has no room for
+    /// a domain integral. No cracks: none.
+    /// @param families  of this rank; empty: the law in all cells
+    std::vector<NamedQuantity>
+    crack_quantities(const State<dim>                   &state,
+                     const Mesh::RegionMap              &region,
+                     const Peridynamics::FamilySet<dim> &families) const;
+
     /// Writes probe_<name>.csv of all lines and circles.
     /// @return names of the files
     std::vector<std::string>
@@ -86,6 +96,12 @@ namespace Perimorph::Application
     std::vector<std::string>
     expected_names() const;
 
+    /// Name of each tip or front of the cracks at the start.
+    void
+    name_crack_tips();
+    void
+    add_crack_names(std::vector<std::string> &names) const;
+
     double
     nominal_stress(const State<dim> &state) const;
 
@@ -117,5 +133,8 @@ namespace Perimorph::Application
     std::unique_ptr<Fracture::NodalStress<dim>>     recovery;
     std::unique_ptr<Fracture::PointProbe<dim>>      probe;
     std::vector<Fracture::ReferenceData<dim>>       reference_data;
+    const Bonds::CrackSet<dim>                     &cracks;
+    std::vector<std::string>                        tip_names;
+    std::vector<Fracture::MirrorPlane<dim>>         planes;
   };
 } // namespace Perimorph::Application

@@ -171,7 +171,9 @@ namespace Perimorph::Application
                  unsigned int      step,
                  double            time);
     void
-    evaluate(const State<dim> &state);
+    evaluate(const Method &method, const State<dim> &state);
+    std::vector<NamedQuantity>
+    quantities(const Method &method, const State<dim> &state) const;
     void
     compare_with_finite_elements(const State<dim> &state);
     void
