@@ -104,8 +104,9 @@ namespace Perimorph::Application
     prm.add_parameter(
       "core size",
       core_size,
-      "Distance from there that is purely peridynamic: a length "
-      "or '2 horizons'.",
+      "Distance from there that is purely peridynamic: a length or '2 "
+      "horizons'; automatic: 2 horizons, 5 with cracks that do not grow, whose "
+      "stress intensity factors need room.",
       Anything());
     prm.add_parameter("blending width",
                       blending_width,

@@ -174,7 +174,7 @@ namespace Perimorph::Application
                                                  errors);
     region.core_size = Parameters::parse_length("Peridynamics / core size",
                                                 texts.core_size,
-                                                false,
+                                                true,
                                                 errors);
     region.blending_width =
       Parameters::parse_length("Peridynamics / blending width",

@@ -7,13 +7,20 @@ namespace Perimorph::Application
   SimulationParameters<dim>::read_cracks(const ParameterTexts      &texts,
                                          Base::InputErrorCollector &errors)
   {
-    coupling.crack_rule     = texts.crack_treatment == "consistent"
-                                ? Coupling::CrackRule::consistent
-                                : Coupling::CrackRule::shape_tensor;
-    pre_cracks              = Parameters::parse_polylines("Cracks / pre-cracks",
+    coupling.crack_rule = texts.crack_treatment == "consistent"
+                            ? Coupling::CrackRule::consistent
+                            : Coupling::CrackRule::shape_tensor;
+    pre_cracks          = Parameters::parse_polylines("Cracks / pre-cracks",
                                              texts.pre_cracks,
                                              dim,
                                              errors);
+    // Domain integrals are best where one method carries all of the annulus
+    // (doc/theory, 12).
+    if (region.core_size.automatic)
+      region.core_size = {
+        !pre_cracks.empty() && texts.crack_growth == "none" ? 5. : 2.,
+        true,
+        false};
     growth.active           = texts.crack_growth != "none";
     growth.events           = texts.growth_control == "events";
     growth.fracture_energy  = texts.fracture_energy;

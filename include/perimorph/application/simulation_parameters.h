@@ -34,7 +34,7 @@ namespace Perimorph::Application
     std::string law = "linear elastic", state = "automatic", by_volume;
     double      youngs_modulus = 0., poissons_ratio = 0.;
 
-    std::string model = "correspondence", around, core_size = "2 horizons",
+    std::string model = "correspondence", around, core_size = "automatic",
                 blending_width = "automatic", blending_function = "cubic",
                 influence_function = "automatic", coupling = "consistent",
                 stabilization_scale = "automatic";
