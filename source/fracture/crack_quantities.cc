@@ -1,5 +1,7 @@
 #include <perimorph/fracture/crack_quantities.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -70,14 +72,15 @@ namespace Perimorph::Fracture
   }
 
   std::vector<TipQuantities>
-  tip_quantities(const CrackedBody<2>       &cracked,
-                 const std::vector<Annulus> &annuli,
-                 const MPI_Comm              communicator)
+  tip_quantities(const CrackedBody<2>        &cracked,
+                 const std::vector<CrackTip> &tips,
+                 const std::vector<Annulus>  &annuli,
+                 const MPI_Comm               communicator)
   {
     const auto &mesh = cracked.body.mesh;
     const auto  fit  = visible_fit(mesh, cracked.cracks, cracked.planes);
     std::vector<TipQuantities> all;
-    for (const auto &tip : find_tips(mesh, cracked.cracks))
+    for (const auto &tip : tips)
       {
         TipQuantities      result;
         const Surroundings around =
@@ -94,6 +97,8 @@ namespace Perimorph::Fracture
                         nodes_within<2>(mesh,
                                         {tip.frame.origin},
                                         largest_radius(result.annuli)));
+        result.n_without_stress =
+          dealii::Utilities::MPI::sum(set.n_without_stress, communicator);
         for (const auto &annulus : result.annuli)
           result.values.push_back(fracture_quantities(set,
                                                       mesh,
@@ -113,16 +118,17 @@ namespace Perimorph::Fracture
   }
 
   std::vector<FrontQuantities>
-  front_quantities(const CrackedBody<3>       &cracked,
-                   const unsigned int          n_stations,
-                   const std::vector<Annulus> &annuli,
-                   const MPI_Comm              communicator)
+  front_quantities(const CrackedBody<3>          &cracked,
+                   const std::vector<CrackFront> &fronts,
+                   const unsigned int             n_stations,
+                   const std::vector<Annulus>    &annuli,
+                   const MPI_Comm                 communicator)
   {
     const double pi   = std::acos(-1.);
     const auto  &mesh = cracked.body.mesh;
     const auto   fit  = visible_fit(mesh, cracked.cracks, cracked.planes);
     std::vector<FrontQuantities> all;
-    for (const auto &front : find_fronts(mesh, cracked.cracks))
+    for (const auto &front : fronts)
       {
         FrontQuantities    result;
         const Surroundings around =
@@ -142,6 +148,8 @@ namespace Perimorph::Fracture
           cracked,
           *fit,
           nodes_near_front(mesh, front, largest_radius(result.annuli)));
+        result.n_without_stress =
+          dealii::Utilities::MPI::sum(set.n_without_stress, communicator);
         for (const double station : result.stations)
           {
             result.values.emplace_back();

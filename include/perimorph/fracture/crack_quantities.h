@@ -13,8 +13,9 @@ namespace Perimorph::Fracture
     const Bonds::CrackSet<dim> &cracks;
     const std::vector<double>  &alpha;   ///< per node, 1 = peridynamics
     const std::vector<double>  &horizon; ///< per node [length]
-    /// Of this rank. Without them (bond-based peridynamics, cross checks) the
-    /// law is evaluated in all cells, whatever alpha.
+    /// Of this rank; an empty set in a run of finite elements only. Null
+    /// (bond-based peridynamics, cross checks): the law is evaluated in all
+    /// cells, whatever alpha.
     const Peridynamics::FamilySet<dim> *families = nullptr;
     /// For the fits at the crack.
     std::vector<MirrorPlane<dim>> planes = {};
@@ -26,7 +27,11 @@ namespace Perimorph::Fracture
     CrackTip                        tip;
     std::vector<Annulus>            annuli; ///< none: no room, no values
     std::vector<FractureQuantities> values;
-    OpeningFactors                  opening; ///< a check of the factors
+    /// A check of the factors; not for a crack that is meshed (nodes in one
+    /// place on both faces).
+    OpeningFactors opening;
+    /// StressPointSet::n_without_stress of all ranks; 0 when all is well.
+    unsigned int n_without_stress = 0;
 
     /// Largest change of J over the annuli relative to the first; not a number
     /// with fewer than two.
@@ -34,13 +39,14 @@ namespace Perimorph::Fracture
     domain_dependence() const;
   };
 
-  /// All tips of a plane body, in the order of find_tips(), the same on every
-  /// rank. Collective.
+  /// Quantities of tips, the same on every rank. Collective.
+  /// @param tips    find_tips(), or the tips of a meshed crack
   /// @param annuli  of every tip; empty: default_annuli() of each
   std::vector<TipQuantities>
-  tip_quantities(const CrackedBody<2>       &body,
-                 const std::vector<Annulus> &annuli,
-                 MPI_Comm                    communicator);
+  tip_quantities(const CrackedBody<2>        &body,
+                 const std::vector<CrackTip> &tips,
+                 const std::vector<Annulus>  &annuli,
+                 MPI_Comm                     communicator);
 
   /// Values at points of a front on each annulus.
   struct FrontQuantities
@@ -51,20 +57,23 @@ namespace Perimorph::Fracture
     std::vector<Annulus> annuli;
     /// values[station][annulus]
     std::vector<std::vector<FractureQuantities>> values;
+    unsigned int n_without_stress = 0; ///< as for tips
   };
 
-  /// All fronts of a body in space, in the order of find_fronts(). Collective.
+  /// Quantities along fronts, the same on every rank. Collective.
   ///
   /// The tents are 4 spacings of the mesh at the front wide to each side or
   /// reach to the neighbouring stations, whichever is wider, but not over more
   /// than a quarter of a front: narrower ones let the factors scatter with the
   /// place of the nodes (penny crack, 2 spacings 4 %, 4 spacings 1.5 %).
+  /// @param fronts      find_fronts()
   /// @param n_stations  points per front
   /// @param annuli      of every front; empty: default_annuli() of each, for
   ///                    the length of the front over 2 pi
   std::vector<FrontQuantities>
-  front_quantities(const CrackedBody<3>       &body,
-                   unsigned int                n_stations,
-                   const std::vector<Annulus> &annuli,
-                   MPI_Comm                    communicator);
+  front_quantities(const CrackedBody<3>          &body,
+                   const std::vector<CrackFront> &fronts,
+                   unsigned int                   n_stations,
+                   const std::vector<Annulus>    &annuli,
+                   MPI_Comm                       communicator);
 } // namespace Perimorph::Fracture

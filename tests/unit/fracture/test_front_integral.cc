@@ -162,7 +162,7 @@ namespace
   }
 
   /// K_I = 2 sqrt(a / pi) (I. N. Sneddon, Proc. Roy. Soc. A 187 (1946) 229).
-  /// Without the term of the curvature K_I is 4 % smaller.
+  /// Without the term of the curvature K_I is 3 to 4 % too small.
   void
   expect_penny(const FractureQuantities &found)
   {
@@ -187,11 +187,12 @@ namespace
   {
     const Box                 box = penny_box();
     const std::vector<double> none(box.mesh.n_nodes(), 0.);
-    const CrackedBody<3> body   = {{box.mesh, box.materials, box.displacement},
-                                   box.cracks,
-                                   none,
-                                   none};
-    const auto           fronts = front_quantities(body, 4, {}, MPI_COMM_SELF);
+    const CrackedBody<3> body = {{box.mesh, box.materials, box.displacement},
+                                 box.cracks,
+                                 none,
+                                 none};
+    const auto           fronts =
+      front_quantities(body, {box.front}, 4, {}, MPI_COMM_SELF);
     ASSERT_EQ(fronts.size(), 1u);
     ASSERT_EQ(fronts[0].values.size(), 4u);
     ASSERT_EQ(fronts[0].annuli.size(), 2u);
