@@ -78,8 +78,7 @@ namespace Perimorph::Testing
     }
   };
 
-  /// Families of all particles with alpha > 0. Those that the cracks cut have
-  /// the classical gradient over the nodes on their side.
+  /// Families of all particles with alpha > 0, cut by the cracks.
   template <int dim>
   Peridynamics::FamilySet<dim>
   cut_families(const Mesh::NodalMesh<dim>       &mesh,
@@ -93,42 +92,10 @@ namespace Perimorph::Testing
       horizon[n] = horizon_ratio * mesh.spacing[n];
     Coupling::FamilyParameters parameters;
     parameters.constants = {constants};
-    const auto whole =
-      Coupling::consistent_families(mesh, alpha, horizon, parameters);
-
-    Peridynamics::FamilySet<dim> families;
-    for (std::size_t p = 0; p < whole.n_particles(); ++p)
-      {
-        const auto               own = whole.node[p];
-        std::vector<std::size_t> bonds;
-        dealii::Tensor<2, dim>   shape;
-        for (std::size_t b = whole.offsets[p]; b < whole.offsets[p + 1]; ++b)
-          {
-            const auto &x = mesh.nodes[whole.neighbor[b]];
-            if (cracks.crosses(mesh.nodes[own], x))
-              continue;
-            bonds.push_back(b);
-            shape +=
-              whole.bond_weight[b] *
-              dealii::outer_product(x - mesh.nodes[own], x - mesh.nodes[own]);
-          }
-        const bool cut = bonds.size() < whole.offsets[p + 1] - whole.offsets[p];
-        for (const std::size_t b : bonds)
-          {
-            const auto &x = mesh.nodes[whole.neighbor[b]];
-            families.neighbor.push_back(whole.neighbor[b]);
-            families.bond_weight.push_back(whole.bond_weight[b]);
-            families.gradient_weight.push_back(
-              cut
-                ? whole.bond_weight[b] * (invert(shape) * (x - mesh.nodes[own]))
-                : whole.gradient_weight[b]);
-          }
-        families.node.push_back(own);
-        families.material.push_back(whole.material[p]);
-        families.weight.push_back(whole.weight[p]);
-        families.stabilization.push_back(whole.stabilization[p]);
-        families.offsets.push_back(families.neighbor.size());
-      }
-    return families;
+    return Coupling::consistent_families(mesh,
+                                         alpha,
+                                         horizon,
+                                         parameters,
+                                         cracks);
   }
 } // namespace Perimorph::Testing

@@ -144,20 +144,20 @@ namespace
               Testing::NearTipCase().constants().plane_modulus();
             ASSERT_EQ(tip.values.size(), 2u);
             EXPECT_EQ(tip.n_without_stress, 0u);
-            EXPECT_LT(tip.domain_dependence(), with_families ? 7e-3 : 1.5e-3);
+            EXPECT_LT(tip.domain_dependence(), with_families ? 2e-3 : 1e-3);
             for (const auto &value : tip.values)
               {
                 EXPECT_NEAR(value.K_I / exact.K_I(),
                             1.,
-                            with_families ? 1.9e-3 : 1.3e-3);
+                            with_families ? 1.5e-3 : 1.3e-3);
                 EXPECT_NEAR(value.K_II / exact.K_II(),
                             1.,
-                            with_families ? 2.1e-2 : 2.5e-3);
+                            with_families ? 1.3e-2 : 2.5e-3);
                 EXPECT_NEAR(
                   value.J * modulus /
                     (exact.K_I() * exact.K_I() + exact.K_II() * exact.K_II()),
                   1.,
-                  with_families ? 5.5e-3 : 1.4e-3);
+                  with_families ? 4.7e-3 : 1.4e-3);
               }
             EXPECT_NEAR(tip.opening.K_I / exact.K_I(), 1., 8e-3);
             EXPECT_NEAR(tip.opening.K_II / exact.K_II(), 1., 0.11);

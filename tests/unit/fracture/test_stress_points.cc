@@ -140,17 +140,17 @@ namespace
 
   TEST(StressPoints, cells_converge_to_the_exact_factors)
   {
-    expect_convergence(Source::cells, {{4e-3, 1e-3, 2e-4}});
+    expect_convergence(Source::cells, {{4e-3, 1e-3, 2.5e-4}});
   }
 
   TEST(StressPoints, families_converge_to_the_exact_factors)
   {
-    expect_convergence(Source::families, {{2.5e-2, 5e-3, 1.5e-3}});
+    expect_convergence(Source::families, {{1.8e-2, 2e-3, 7.5e-4}});
   }
 
   TEST(StressPoints, families_and_elements_converge_to_the_exact_factors)
   {
-    expect_convergence(Source::families_and_elements, {{2.6e-2, 8e-3, 2.1e-3}});
+    expect_convergence(Source::families_and_elements, {{2.2e-2, 6.3e-3, 2e-3}});
   }
 
   // Each part of the body once: the shares of all points add up to its area.
