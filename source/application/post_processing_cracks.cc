@@ -129,13 +129,18 @@ namespace Perimorph::Application
       planes};
     if constexpr (dim == 2)
       for (const auto &tip :
-           Fracture::tip_quantities(body, {}, mesh.communicator()))
+           Fracture::tip_quantities(body,
+                                    Fracture::find_tips(mesh.nodal(), cracks),
+                                    {},
+                                    mesh.communicator()))
         add(tip.tip.crack, tip_values(tip));
     else
-      for (const auto &front : Fracture::front_quantities(body,
-                                                          n_stations,
-                                                          {},
-                                                          mesh.communicator()))
+      for (const auto &front : Fracture::front_quantities(
+             body,
+             Fracture::find_fronts(mesh.nodal(), cracks),
+             n_stations,
+             {},
+             mesh.communicator()))
         add(front.front.crack, front_values(front));
 
     std::vector<NamedQuantity> list;
