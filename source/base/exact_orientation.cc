@@ -2,13 +2,15 @@
 
 #include <boost/multiprecision/cpp_int.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Perimorph::Base
 {
   namespace
   {
-    using Rational = boost::multiprecision::cpp_rational;
+    using Integer = boost::multiprecision::cpp_int;
 
     template <typename Number, int dim>
     using Matrix = std::array<std::array<Number, dim>, dim>;
@@ -43,17 +45,43 @@ namespace Perimorph::Base
     /// when the moved points move by one.
     template <typename Number, int dim>
     Matrix<Number, dim>
-    rows(const std::array<dealii::Point<dim>, dim + 1> &points,
-         const std::array<bool, dim + 1>               &moved,
-         const int                                      replaced_column)
+    rows(const std::array<std::array<Number, dim>, dim + 1> &points,
+         const std::array<bool, dim + 1>                    &moved,
+         const int                                           replaced_column)
     {
       Matrix<Number, dim> m;
       for (int k = 0; k < dim; ++k)
         for (int d = 0; d < dim; ++d)
           m[k][d] = d == replaced_column
                       ? Number(int(moved[k + 1]) - int(moved[0]))
-                      : Number(points[k + 1][d]) - Number(points[0][d]);
+                      : points[k + 1][d] - points[0][d];
       return m;
+    }
+
+    /// Coordinates times the power of two that makes all of them integers.
+    template <int dim>
+    std::array<std::array<Integer, dim>, dim + 1>
+    as_integers(const std::array<std::array<double, dim>, dim + 1> &points)
+    {
+      constexpr int digits   = std::numeric_limits<double>::digits;
+      int           smallest = std::numeric_limits<int>::max();
+      for (const auto &point : points)
+        for (const double x : point)
+          if (x != 0.)
+            smallest = std::min(smallest, std::ilogb(x));
+      std::array<std::array<Integer, dim>, dim + 1> result;
+      for (int k = 0; k <= dim; ++k)
+        for (int d = 0; d < dim; ++d)
+          {
+            const double x = points[k][d];
+            if (x == 0.)
+              continue;
+            const int exponent = std::ilogb(x);
+            result[k][d] =
+              Integer(std::llrint(std::scalbn(x, digits - 1 - exponent)))
+              << (exponent - smallest);
+          }
+      return result;
     }
 
     template <int dim>
@@ -62,15 +90,24 @@ namespace Perimorph::Base
          const std::array<bool, dim + 1>               &moved,
          const int                                      replaced_column)
     {
+      std::array<std::array<double, dim>, dim + 1> x;
+      for (int k = 0; k <= dim; ++k)
+        for (int d = 0; d < dim; ++d)
+          x[k][d] = points[k][d];
       // Above the bounds of Shewchuk (1997): (3 + 16 e) e, (7 + 56 e) e.
       constexpr double relative_error = 2e-15;
       const auto [value, bound] =
-        determinant(rows<double, dim>(points, moved, replaced_column));
+        determinant(rows<double, dim>(x, moved, replaced_column));
       if (std::abs(value) > relative_error * bound)
         return value > 0. ? 1 : -1;
-      const Rational exact =
-        determinant(rows<Rational, dim>(points, moved, replaced_column)).first;
-      return exact > 0 ? 1 : exact < 0 ? -1 : 0;
+      // A product without a factor that is exactly zero has a bound.
+      if (bound == 0.)
+        return 0;
+      const Integer exact =
+        determinant(
+          rows<Integer, dim>(as_integers<dim>(x), moved, replaced_column))
+          .first;
+      return exact.sign();
     }
   } // namespace
 

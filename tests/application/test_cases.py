@@ -38,6 +38,8 @@ CASES = {
     ([], {}, {"relative_displacement_error": 1e-10,
               "relative_energy_error": 1e-10,
               "relative_maximum_error": 1e-10}),
+    "penny_crack.prm":
+    (["Mesh/geometry parameters=h = 0.25"], {"penny_front1_K_I": 0.04}, {}),
     "plate_with_hole.prm":
     ([], {"stress_concentration": 0.01, "equator_displacement_y": 1e-3,
           "pole_displacement_x": 5e-4},

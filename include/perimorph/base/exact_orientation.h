@@ -8,7 +8,7 @@ namespace Perimorph::Base
 {
   /// Sign of the volume of the simplex of dim + 1 points (2D: +1 if they turn
   /// to the left), decided without round-off: floating point with an error
-  /// bound, exact rationals where that does not settle it.
+  /// bound, exact integers where that does not settle it.
   ///
   /// Points marked `moved` are moved by a common infinitesimal vector (e, e^2,
   /// e^3), which settles the cases in which points lie in one line or plane.

@@ -14,133 +14,154 @@ namespace Perimorph::Coupling
   {
     using Point2 = dealii::Point<2>;
 
-    /// The unit square with cracks, peridynamics in the middle or everywhere.
-    struct CrackedPlate
+    std::vector<Bonds::CrackFacet<2>>
+    polylines(const std::vector<std::vector<Point2>> &lines)
     {
-      std::vector<std::vector<Point2>> polylines;
-      double                           perturbation  = 0.2;
-      double                           horizon_ratio = 2.;
-      std::string                      law           = "linear elastic";
-      unsigned int                     n_cells       = 24;
-      bool                             everywhere    = false;
+      std::vector<Bonds::CrackFacet<2>> facets;
+      for (unsigned int c = 0; c < lines.size(); ++c)
+        for (unsigned int k = 0; k + 1 < lines[c].size(); ++k)
+          facets.push_back({{{lines[c][k], lines[c][k + 1]}}, c, 0});
+      return facets;
+    }
 
-      std::unique_ptr<Mesh::DistributedMesh<2>> mesh       = {};
-      Mesh::RegionMap                           region     = {};
-      BodyMaterials<2>                          materials  = {};
-      std::unique_ptr<CoupledProblem<2>>        problem    = {};
-      std::vector<Bonds::CrackFacet<2>>         facets     = {};
-      CouplingParameters                        parameters = {};
+    /// The unit square or cube with cracks, peridynamics everywhere or around
+    /// the cracks.
+    template <int dim>
+    struct CrackedBody
+    {
+      std::vector<Bonds::CrackFacet<dim>> facets;
+
+      double             perturbation  = 0.2;
+      double             horizon_ratio = 2.;
+      std::string        law           = "linear elastic";
+      unsigned int       n_cells       = dim == 2 ? 24 : 8;
+      bool               everywhere    = false;
+      CouplingParameters parameters    = {};
+
+      std::unique_ptr<Mesh::DistributedMesh<dim>> mesh      = {};
+      Mesh::RegionMap                             region    = {};
+      BodyMaterials<dim>                          materials = {};
+      std::unique_ptr<CoupledProblem<dim>>        problem   = {};
 
       void
       build()
       {
-        mesh = std::make_unique<Mesh::DistributedMesh<2>>(
-          Testing::as_gmsh_mesh(Testing::unit_mesh<2>(n_cells, perturbation)),
+        const auto state = dim == 2 ? Materials::PlaneState::plane_stress
+                                    : Materials::PlaneState::three_dimensional;
+        mesh             = std::make_unique<Mesh::DistributedMesh<dim>>(
+          Testing::as_gmsh_mesh(Testing::unit_mesh<dim>(n_cells, perturbation)),
           MPI_COMM_WORLD);
         Mesh::RegionParameters where;
-        for (unsigned int c = 0; c < polylines.size(); ++c)
-          for (unsigned int k = 0; k + 1 < polylines[c].size(); ++k)
-            {
-              const auto &a = polylines[c][k], &b = polylines[c][k + 1];
-              facets.push_back({{{a, b}}, c, 0});
-              where.features.push_back({Parameters::FeatureKind::segment,
-                                        "",
-                                        {a[0], a[1], b[0], b[1]}});
-            }
+        for (const auto &facet : facets)
+          {
+            where.features.push_back({dim == 2
+                                        ? Parameters::FeatureKind::segment
+                                        : Parameters::FeatureKind::triangle,
+                                      "",
+                                      {}});
+            for (const auto &corner : facet.corners)
+              for (int d = 0; d < dim; ++d)
+                where.features.back().numbers.push_back(corner[d]);
+          }
         where.horizon_ratio = horizon_ratio;
         where.core_size     = {3., true, false};
         if (everywhere)
           where.mode = Mesh::Mode::peridynamics;
         region = Mesh::make_region_map(*mesh, where);
         materials.laws.push_back(
-          Materials::make_material<2>(law,
-                                      1.,
-                                      1. / 3.,
-                                      Materials::PlaneState::plane_stress));
-        materials.bond_constants.push_back(
-          {1., Materials::PlaneState::plane_stress});
-        problem =
-          std::make_unique<CoupledProblem<2>>(*mesh,
-                                              region,
-                                              materials,
-                                              parameters,
-                                              CoupledProblem<2>::Progress(),
-                                              std::vector<unsigned int>(),
-                                              Bonds::CrackSet<2>(facets));
+          Materials::make_material<dim>(law, 1., 1. / 3., state));
+        materials.bond_constants.push_back({1., state});
+        problem = std::make_unique<CoupledProblem<dim>>(
+          *mesh,
+          region,
+          materials,
+          parameters,
+          typename CoupledProblem<dim>::Progress(),
+          std::vector<unsigned int>(),
+          Bonds::CrackSet<dim>(facets));
       }
 
-      /// Largest force under the affine displacement of a gradient that is not
-      /// the one of finite elements, stress times the change of the target
-      /// added (that is zero where the stress leaves the crack free, but for
-      /// mouths), relative to stress spacing.
-      double
-      ghost(const dealii::Tensor<2, 2> &gradient) const
+      /// Forces under the affine displacement of a gradient, minus those of
+      /// finite elements if asked for.
+      Fem::Vector
+      forces(const dealii::Tensor<2, dim> &gradient,
+             const bool                    minus_elements) const
       {
         const auto &partition = problem->partition();
-        Fem::Vector displacement, forces, expected;
+        Fem::Vector displacement, result, elements;
         partition.initialize(displacement);
-        partition.initialize(forces);
-        partition.initialize(expected);
+        partition.initialize(result);
+        partition.initialize(elements);
         for (unsigned int n = 0; n < partition.n_owned(); ++n)
           {
             const auto u = gradient * partition.position(n);
-            for (int d = 0; d < 2; ++d)
-              displacement.local_element(2 * n + d) = u[d];
+            for (int d = 0; d < dim; ++d)
+              displacement.local_element(dim * n + d) = u[d];
           }
         displacement.update_ghost_values();
-        problem->internal_forces(displacement, forces);
-        problem->full_elements().add_residual(displacement, expected);
-        expected.compress(dealii::VectorOperation::add);
+        problem->internal_forces(displacement, result);
+        if (minus_elements)
+          {
+            problem->full_elements().add_residual(displacement, elements);
+            elements.compress(dealii::VectorOperation::add);
+            for (unsigned int n = 0; n < dim * partition.n_owned(); ++n)
+              result.local_element(n) -= elements.local_element(n);
+          }
+        return result;
+      }
 
-        const Bonds::CrackSet<2>    cracks(facets);
-        const Bonds::CrackTraces<2> traces(mesh->nodal(), cracks);
+      /// Largest force that is neither the one of finite elements nor stress
+      /// times the change of the target by the cracks, relative to stress
+      /// times spacing^(dim - 1).
+      double
+      ghost(const dealii::Tensor<2, dim> &gradient) const
+      {
+        const auto                   &partition = problem->partition();
+        const auto                    found     = forces(gradient, true);
+        const Bonds::CrackSet<dim>    cracks(facets);
+        const Bonds::CrackTraces<dim> traces(mesh->nodal(), cracks);
         auto       target = crack_target(mesh->nodal(), cracks, traces);
         const auto P      = materials.laws[0]->first_piola_kirchhoff(gradient);
         double     worst  = 0.;
         for (unsigned int n = 0; n < partition.n_owned(); ++n)
           {
             const auto change = P * target[partition.global(n)];
-            for (int d = 0; d < 2; ++d)
-              worst = std::max(worst,
-                               std::abs(forces.local_element(2 * n + d) -
-                                        expected.local_element(2 * n + d) -
-                                        change[d]) *
-                                 n_cells / P.norm());
+            for (int d = 0; d < dim; ++d)
+              worst = std::max(
+                worst,
+                std::abs(found.local_element(dim * n + d) - change[d]) *
+                  std::pow(n_cells, dim - 1) / P.norm());
           }
         return dealii::Utilities::MPI::max(worst, MPI_COMM_WORLD);
       }
 
-      /// Largest force of interior nodes.
+      /// Largest force of interior nodes, relative to the same.
       double
-      disturbance(const dealii::Tensor<2, 2> &gradient) const
+      disturbance(const dealii::Tensor<2, dim> &gradient) const
       {
-        const auto &partition = problem->partition();
-        Fem::Vector displacement, forces;
-        partition.initialize(displacement);
-        partition.initialize(forces);
-        for (unsigned int n = 0; n < partition.n_owned(); ++n)
-          {
-            const auto u = gradient * partition.position(n);
-            for (int d = 0; d < 2; ++d)
-              displacement.local_element(2 * n + d) = u[d];
-          }
-        displacement.update_ghost_values();
-        problem->internal_forces(displacement, forces);
+        const auto  &partition = problem->partition();
+        const auto   found     = forces(gradient, false);
         const double stress =
           materials.laws[0]->first_piola_kirchhoff(gradient).norm();
         double worst = 0.;
         for (unsigned int n = 0; n < partition.n_owned(); ++n)
           {
-            const auto &x = partition.position(n);
-            if (std::min({x[0], x[1], 1. - x[0], 1. - x[1]}) > 1e-9)
-              for (int d = 0; d < 2; ++d)
+            double to_surface = 1.;
+            for (int d = 0; d < dim; ++d)
+              to_surface = std::min({to_surface,
+                                     partition.position(n)[d],
+                                     1. - partition.position(n)[d]});
+            if (to_surface > 1e-9)
+              for (int d = 0; d < dim; ++d)
                 worst = std::max(worst,
-                                 std::abs(forces.local_element(2 * n + d)) *
-                                   n_cells / stress);
+                                 std::abs(found.local_element(dim * n + d)) *
+                                   std::pow(n_cells, dim - 1) / stress);
           }
         return dealii::Utilities::MPI::max(worst, MPI_COMM_WORLD);
       }
     };
+
+    using CrackedPlate = CrackedBody<2>;
 
     dealii::Tensor<1, 2>
     direction(const double degrees)
@@ -199,7 +220,7 @@ namespace Perimorph::Coupling
         for (const double degrees : {0., 17., 45.})
           {
             CrackedPlate plate;
-            plate.polylines     = {segment(Point2(.5, .5), .2, degrees)};
+            plate.facets = polylines({segment(Point2(.5, .5), .2, degrees)});
             plate.perturbation  = perturbation;
             plate.horizon_ratio = ratio;
             plate.build();
@@ -217,8 +238,8 @@ namespace Perimorph::Coupling
     for (const double degrees : {0., 17.})
       {
         CrackedPlate plate;
-        plate.polylines = {segment(Point2(.5, .5), .2, degrees)};
-        plate.law       = "hencky";
+        plate.facets = polylines({segment(Point2(.5, .5), .2, degrees)});
+        plate.law    = "hencky";
         plate.build();
         EXPECT_LT(plate.ghost(uniaxial(degrees,
                                        *plate.materials.laws[0],
@@ -247,7 +268,7 @@ namespace Perimorph::Coupling
       for (const double perturbation : {0., 0.2})
         {
           CrackedPlate plate;
-          plate.polylines    = shape;
+          plate.facets       = polylines(shape);
           plate.perturbation = perturbation;
           plate.everywhere   = true;
           plate.build();
@@ -260,11 +281,47 @@ namespace Perimorph::Coupling
         }
   }
 
+  TEST(CutFamilies, patch_test_in_space)
+  {
+    // A square crack of two triangles, aligned and turned, inside the cube and
+    // up to one face.
+    using Point3                                     = dealii::Point<3>;
+    const std::vector<std::array<Point3, 4>> squares = {
+      {{Point3(.3, .3, .5),
+        Point3(.7, .3, .5),
+        Point3(.7, .7, .5),
+        Point3(.3, .7, .5)}},
+      {{Point3(.32, .31, .42),
+        Point3(.7, .33, .5),
+        Point3(.68, .71, .58),
+        Point3(.3, .69, .5)}},
+      {{Point3(-.1, .3, .5),
+        Point3(.5, .3, .5),
+        Point3(.5, .7, .5),
+        Point3(-.1, .7, .5)}}};
+    for (const auto &c : squares)
+      for (const double perturbation : {0., 0.2})
+        {
+          CrackedBody<3> block;
+          block.facets       = {{{{c[0], c[1], c[2]}}, 0, 0},
+                                {{{c[0], c[2], c[3]}}, 0, 0}};
+          block.perturbation = perturbation;
+          block.everywhere   = true;
+          block.build();
+          EXPECT_LT(block.problem->crack_report().residual, 1e-11);
+          dealii::Tensor<2, 3> gradient;
+          gradient[0][0] = 1.;
+          gradient[1][2] = .4;
+          gradient[2][1] = -.7;
+          EXPECT_LT(block.ghost(gradient), 1e-11) << "crack from " << c[0];
+        }
+  }
+
   TEST(CutFamilies, cheap_rule_leaves_a_ghost_force)
   {
     // The other treatment is there to compare with: it must be worse.
     CrackedPlate plate;
-    plate.polylines             = {segment(Point2(.5, .5), .2, 17.)};
+    plate.facets                = polylines({segment(Point2(.5, .5), .2, 17.)});
     plate.parameters.crack_rule = CrackRule::shape_tensor;
     plate.build();
     EXPECT_GT(
