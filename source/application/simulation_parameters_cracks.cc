@@ -29,6 +29,11 @@ namespace Perimorph::Application
                                               texts.advance_length,
                                               false,
                                               errors);
+    if (!pre_cracks.empty() &&
+        coupling.scheme == Coupling::Scheme::force_blending)
+      errors.add_parameter("Peridynamics / coupling",
+                           "'force blending' with cracks",
+                           "consistent, energy blending");
     if (!growth.active)
       return;
     if (dim == 3)

@@ -91,12 +91,13 @@ namespace Perimorph::Application
   void
   Simulation<dim>::check_cracks() const
   {
-    if (cracks.empty() || parameters.region.mode == Mesh::Mode::finite_elements)
-      return;
     std::vector<std::string> names;
     for (const auto &line : parameters.pre_cracks)
       names.push_back(line.name);
-    check_cracks_in_core(mesh->nodal(), region, cracks, names);
+    if (parameters.region.mode == Mesh::Mode::finite_elements)
+      check_cracks_in_mesh(mesh->nodal(), cracks, names);
+    else
+      check_cracks_in_core(mesh->nodal(), region, cracks, names);
   }
 
   template <int dim>

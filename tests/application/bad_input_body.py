@@ -55,8 +55,17 @@ REGIONS = [
                                      "horizons"], {CORE: "big"}),
     row("negative core size", ["'Peridynamics / core size'", "-1"],
         {CORE: "-1"}),
-    row("automatic core size", ["'Peridynamics / core size'", "'automatic'"],
-        {CORE: "automatic"}),
+    row("crack outside of the body", ["'Cracks / pre-cracks'",
+                                      "'c' outside of the body"],
+        {"Cracks/pre-cracks": "c: 3 0.5 to 4 0.5"}),
+    row("crack through elements", [
+        "'Cracks / pre-cracks'", "where elements carry a part",
+        "in the peridynamic core", "larger 'Peridynamics / core size'"],
+        {"Cracks/pre-cracks": "c: 0.4 0.4 to 0.5 0.4", CORE: "0.01"}),
+    row("crack in finite elements", [
+        "'Cracks / pre-cracks'", "inside of elements", "doubled nodes"],
+        {"Cracks/pre-cracks": "c: 0.4 0.4 to 0.5 0.4",
+         "Mode": "finite elements"}),
     row("negative blending width", ["'Peridynamics / blending width'", "-1"],
         {WIDTH: "-1 horizons"}),
     row("horizon smaller than the spacing", [
