@@ -3,8 +3,6 @@
 #include <perimorph/bonds/crack_points.h>
 #include <perimorph/mesh/feature_distance.h>
 
-#include <array>
-#include <limits>
 #include <set>
 #include <sstream>
 
@@ -132,63 +130,17 @@ namespace Perimorph::Application
         }
   }
 
-  template <int dim>
-  void
-  check_cracks_in_mesh(const Mesh::NodalMesh<dim>     &mesh,
-                       const Bonds::CrackSet<dim>     &cracks,
-                       const std::vector<std::string> &names)
-  {
-    for (const auto &point : Bonds::crack_points(mesh, cracks))
-      {
-        double distance = std::numeric_limits<double>::infinity();
-        for (const auto &face : mesh.boundary_faces)
-          {
-            const auto node = [&](const unsigned int v) {
-              return mesh.nodes[face.nodes[v]];
-            };
-            if constexpr (dim == 2)
-              distance = std::min(
-                distance,
-                point.position.distance(
-                  Mesh::closest_on_segment(point.position, node(0), node(1))));
-            else
-              for (const auto &[a, b, c] :
-                   {std::array<unsigned int, 3>{{0, 1, 2}},
-                    std::array<unsigned int, 3>{{1, 2, 3}}})
-                distance = std::min(distance,
-                                    point.position.distance(
-                                      Mesh::closest_on_triangle(point.position,
-                                                                node(a),
-                                                                node(b),
-                                                                node(c))));
-          }
-        if (distance < 1e-6 * mesh.spacing[mesh.cells[point.cell][0]])
-          continue;
-        std::ostringstream found;
-        found << "'" << names[cracks.facets()[point.facet].crack] << "' at ("
-              << point.position << ") inside of elements, with Mode = finite "
-              << "elements";
-        throw Base::InputError(Base::InputMessage{
-          "parameter 'Cracks / pre-cracks'",
-          found.str(),
-          "cracks along edges of the mesh with doubled nodes",
-          "Use Mode = coupled, or mesh the crack."});
-      }
-  }
-
-#define PERIMORPH_INSTANTIATE(dim)                                           \
-  template Bonds::CrackSet<dim> make_cracks<dim>(                            \
-    const Mesh::NodalMesh<dim> &,                                            \
-    const std::vector<Parameters::Polyline> &);                              \
-  template std::vector<Parameters::Feature> crack_features<dim>(             \
-    const Bonds::CrackSet<dim> &);                                           \
-  template void check_cracks_in_core<dim>(const Mesh::NodalMesh<dim> &,      \
-                                          const Mesh::RegionMap &,           \
-                                          const Bonds::CrackSet<dim> &,      \
-                                          const std::vector<std::string> &); \
-  template void check_cracks_in_mesh<dim>(const Mesh::NodalMesh<dim> &,      \
-                                          const Bonds::CrackSet<dim> &,      \
+#define PERIMORPH_INSTANTIATE(dim)                                      \
+  template Bonds::CrackSet<dim> make_cracks<dim>(                       \
+    const Mesh::NodalMesh<dim> &,                                       \
+    const std::vector<Parameters::Polyline> &);                         \
+  template std::vector<Parameters::Feature> crack_features<dim>(        \
+    const Bonds::CrackSet<dim> &);                                      \
+  template void check_cracks_in_core<dim>(const Mesh::NodalMesh<dim> &, \
+                                          const Mesh::RegionMap &,      \
+                                          const Bonds::CrackSet<dim> &, \
                                           const std::vector<std::string> &);
+
 
   PERIMORPH_INSTANTIATE(2)
   PERIMORPH_INSTANTIATE(3)

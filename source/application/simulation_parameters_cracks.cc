@@ -29,6 +29,21 @@ namespace Perimorph::Application
                                               texts.advance_length,
                                               false,
                                               errors);
+    if (!pre_cracks.empty() && region.mode == Mesh::Mode::finite_elements)
+      errors.add_parameter("Cracks / pre-cracks",
+                           "cracks with Mode = finite elements",
+                           "coupled, peridynamics",
+                           "Elements cannot be cut; a crack in the mesh needs "
+                           "no entry here.");
+    if (!pre_cracks.empty() && compare_with_finite_elements)
+      errors.add_parameter("Quantities / compare with finite elements",
+                           "true with cracks",
+                           "false",
+                           "Elements cannot be cut.");
+    if (!pre_cracks.empty() && coupling.model == Coupling::Model::bond_based)
+      errors.add_parameter("Cracks / pre-cracks",
+                           "cracks with model = bond based",
+                           "model = correspondence");
     if (!pre_cracks.empty() &&
         coupling.scheme == Coupling::Scheme::force_blending)
       errors.add_parameter("Peridynamics / coupling",
@@ -53,12 +68,6 @@ namespace Perimorph::Application
       errors.add_parameter("Cracks / advance length",
                            "'" + texts.advance_length + "'",
                            "a length > 0");
-    if (region.mode == Mesh::Mode::finite_elements)
-      errors.add_parameter("Cracks / growth",
-                           "'" + texts.crack_growth +
-                             "' with Mode = finite elements",
-                           "coupled, peridynamics",
-                           "Elements cannot be cut.");
     if (coupling.scheme != Coupling::Scheme::consistent)
       errors.add_parameter("Cracks / growth",
                            "'" + texts.crack_growth + "' with coupling '" +

@@ -94,10 +94,7 @@ namespace Perimorph::Application
     std::vector<std::string> names;
     for (const auto &line : parameters.pre_cracks)
       names.push_back(line.name);
-    if (parameters.region.mode == Mesh::Mode::finite_elements)
-      check_cracks_in_mesh(mesh->nodal(), cracks, names);
-    else
-      check_cracks_in_core(mesh->nodal(), region, cracks, names);
+    check_cracks_in_core(mesh->nodal(), region, cracks, names);
   }
 
   template <int dim>

@@ -63,7 +63,8 @@ REGIONS = [
         "in the peridynamic core", "larger 'Peridynamics / core size'"],
         {"Cracks/pre-cracks": "c: 0.4 0.4 to 0.5 0.4", CORE: "0.01"}),
     row("crack in finite elements", [
-        "'Cracks / pre-cracks'", "inside of elements", "doubled nodes"],
+        "'Cracks / pre-cracks'", "Mode = finite elements",
+        "coupled, peridynamics"],
         {"Cracks/pre-cracks": "c: 0.4 0.4 to 0.5 0.4",
          "Mode": "finite elements"}),
     row("negative blending width", ["'Peridynamics / blending width'", "-1"],

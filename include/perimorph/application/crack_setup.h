@@ -31,13 +31,4 @@ namespace Perimorph::Application
                        const Mesh::RegionMap          &region,
                        const Bonds::CrackSet<dim>     &cracks,
                        const std::vector<std::string> &names);
-
-  /// Elements cannot be cut: with elements only cracks must be slits of the
-  /// mesh, edges with doubled nodes.
-  /// @throws Base::InputError  a crack that is not on the surface of the mesh
-  template <int dim>
-  void
-  check_cracks_in_mesh(const Mesh::NodalMesh<dim>     &mesh,
-                       const Bonds::CrackSet<dim>     &cracks,
-                       const std::vector<std::string> &names);
 } // namespace Perimorph::Application
