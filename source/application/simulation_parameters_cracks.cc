@@ -22,7 +22,7 @@ namespace Perimorph::Application
         true,
         false};
     growth.active           = texts.crack_growth != "none";
-    growth.events           = texts.growth_control == "events";
+    growth.events           = growth.active && texts.growth_control == "events";
     growth.fracture_energy  = texts.fracture_energy;
     growth.maximum_advances = texts.maximum_advances;
     growth.advance = Parameters::parse_length("Cracks / advance length",

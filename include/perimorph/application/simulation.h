@@ -63,6 +63,20 @@ namespace Perimorph::Application
       std::unique_ptr<Solvers::Equilibrium<dim>>     equilibrium;
       Fem::Vector                                    displacement;
       double                                         time = 0.;
+
+      Method()          = default;
+      Method(Method &&) = default;
+      /// Assigning a distributed vector keeps its old ghosts: swap instead.
+      Method &
+      operator=(Method &&other)
+      {
+        std::swap(region, other.region);
+        std::swap(equilibrium, other.equilibrium);
+        std::swap(problem, other.problem);
+        displacement.swap(other.displacement);
+        time = other.time;
+        return *this;
+      }
     };
 
     void
