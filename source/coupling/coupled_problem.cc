@@ -1,6 +1,7 @@
 #include <perimorph/base/collective.h>
 #include <perimorph/base/point_cloud.h>
 #include <perimorph/coupling/bond_term.h>
+#include <perimorph/coupling/cell_part_term.h>
 #include <perimorph/coupling/correspondence_term.h>
 #include <perimorph/coupling/coupled_problem.h>
 #include <perimorph/coupling/segment_piece_term.h>
@@ -156,7 +157,7 @@ namespace Perimorph::Coupling
     else if (parameters.model == Model::correspondence)
       make_correspondence(region, parameters, cracks, progress);
     else
-      make_bonds(region, parameters, progress);
+      make_bonds(region, parameters, cracks, progress);
 
     all_cells = std::make_unique<Fem::ElasticCells<dim>>(mesh.nodal(),
                                                          *node_partition,
@@ -216,14 +217,16 @@ namespace Perimorph::Coupling
     add_terms(region,
               parameters.scheme,
               complement(region.alpha),
+              {},
               std::move(term));
   }
 
   template <int dim>
   void
-  CoupledProblem<dim>::make_bonds(const Mesh::RegionMap    &region,
-                                  const CouplingParameters &parameters,
-                                  const Progress           &progress)
+  CoupledProblem<dim>::make_bonds(const Mesh::RegionMap      &region,
+                                  const CouplingParameters   &parameters,
+                                  const Bonds::CrackSet<dim> &cracks,
+                                  const Progress             &progress)
   {
     const auto &nodal      = mesh.nodal();
     const bool  forces     = parameters.scheme == Scheme::force_blending;
@@ -242,8 +245,11 @@ namespace Perimorph::Coupling
                                     !consistent      ? ElementShare::none
                                     : !finite_strain ? ElementShare::tensors
                                                      : ElementShare::springs,
-                                    progress);
+                                    progress,
+                                    cracks,
+                                    parameters.crack_rule);
     });
+    cracked              = coupling.cracked;
     local_counts.bonds   = coupling.bonds.nodes.size();
     local_counts.dropped = coupling.bonds.n_dropped;
     for (unsigned int n = nodal.owned_begin; n < nodal.owned_end; ++n)
@@ -251,6 +257,7 @@ namespace Perimorph::Coupling
 
     std::vector<unsigned int> needed;
     add_bond_nodes(coupling.bonds, needed);
+    add_part_nodes(coupling.parts, needed);
     make_partition(needed);
     std::unique_ptr<Term> bonds;
     if (finite_strain)
@@ -261,6 +268,7 @@ namespace Perimorph::Coupling
     add_terms(region,
               parameters.scheme,
               consistent ? std::vector<double>() : complement(region.alpha),
+              coupling.replaced,
               std::move(bonds));
     if (consistent && finite_strain)
       contributions.push_back(
@@ -270,6 +278,11 @@ namespace Perimorph::Coupling
     else if (consistent)
       contributions.push_back(
         std::make_unique<SegmentTerm<dim>>(nodal, *node_partition, coupling));
+    if (!coupling.replaced.empty())
+      contributions.push_back(
+        std::make_unique<CellPartTerm<dim>>(*node_partition,
+                                            std::move(coupling.parts),
+                                            std::move(coupling.part_tensors)));
   }
 
   template <int dim>
@@ -289,6 +302,7 @@ namespace Perimorph::Coupling
   CoupledProblem<dim>::add_terms(const Mesh::RegionMap     &region,
                                  const Scheme               scheme,
                                  const std::vector<double> &element_weight,
+                                 const std::vector<bool>   &replaced,
                                  std::unique_ptr<Term>      particles)
   {
     const bool forces   = scheme == Scheme::force_blending;
@@ -297,7 +311,7 @@ namespace Perimorph::Coupling
       *node_partition,
       materials.laws,
       forces ? std::vector<double>() : element_weight,
-      forces ? core_cells(mesh.nodal(), region.alpha) : std::vector<bool>());
+      forces ? core_cells(mesh.nodal(), region.alpha) : replaced);
     if (forces)
       {
         elements->set_row_weights(

@@ -117,15 +117,18 @@ namespace Perimorph::Coupling
     /// Traces instead of shape functions on the faces that a crack crosses.
     template <int dim>
     void
-    add_mouths(const Mesh::NodalMesh<dim>    &mesh,
-               const Bonds::CrackSet<dim>    &cracks,
-               const Bonds::CrackTraces<dim> &traces,
-               const unsigned int             first_facet,
-               NodeVectors<dim>              &target)
+    add_mouths(const Mesh::NodalMesh<dim>              &mesh,
+               const Bonds::CrackSet<dim>              &cracks,
+               const Bonds::CrackTraces<dim>           &traces,
+               const unsigned int                       first_facet,
+               const std::function<bool(unsigned int)> &counts,
+               NodeVectors<dim>                        &target)
     {
       std::vector<unsigned int> near;
       for (const auto &face : mesh.boundary_faces)
         {
+          if (counts && !counts(face.cell))
+            continue;
           std::array<dealii::Point<dim>, (1u << (dim - 1))> nodes;
           for (unsigned int v = 0; v < nodes.size(); ++v)
             nodes[v] = mesh.nodes[face.nodes[v]];
@@ -160,14 +163,17 @@ namespace Perimorph::Coupling
 
   template <int dim>
   NodeVectors<dim>
-  crack_target(const Mesh::NodalMesh<dim>    &mesh,
-               const Bonds::CrackSet<dim>    &cracks,
-               const Bonds::CrackTraces<dim> &traces,
-               const unsigned int             first_facet)
+  crack_target(const Mesh::NodalMesh<dim>              &mesh,
+               const Bonds::CrackSet<dim>              &cracks,
+               const Bonds::CrackTraces<dim>           &traces,
+               const unsigned int                       first_facet,
+               const std::function<bool(unsigned int)> &counts)
   {
     NodeVectors<dim> target;
     for (const auto &point : Bonds::crack_points(mesh, cracks, first_facet))
       {
+        if (counts && !counts(point.cell))
+          continue;
         const auto normal = cracks.facets()[point.facet].normal();
         const auto plus   = traces.at(point.position, normal);
         const auto minus  = traces.at(point.position, -normal);
@@ -176,7 +182,7 @@ namespace Perimorph::Coupling
         add(plus, -point.measure * normal, target);
         add(minus, point.measure * normal, target);
       }
-    add_mouths(mesh, cracks, traces, first_facet, target);
+    add_mouths(mesh, cracks, traces, first_facet, counts, target);
     return target;
   }
 
@@ -184,10 +190,12 @@ namespace Perimorph::Coupling
   crack_target<2>(const Mesh::NodalMesh<2> &,
                   const Bonds::CrackSet<2> &,
                   const Bonds::CrackTraces<2> &,
-                  unsigned int);
+                  unsigned int,
+                  const std::function<bool(unsigned int)> &);
   template NodeVectors<3>
   crack_target<3>(const Mesh::NodalMesh<3> &,
                   const Bonds::CrackSet<3> &,
                   const Bonds::CrackTraces<3> &,
-                  unsigned int);
+                  unsigned int,
+                  const std::function<bool(unsigned int)> &);
 } // namespace Perimorph::Coupling

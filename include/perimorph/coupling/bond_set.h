@@ -1,5 +1,7 @@
 #pragma once
 
+#include <perimorph/coupling/cell_parts.h>
+#include <perimorph/coupling/consistent_families.h>
 #include <perimorph/coupling/segment_springs.h>
 #include <perimorph/materials/linear_elastic.h>
 #include <perimorph/mesh/nodal_mesh.h>
@@ -42,11 +44,21 @@ namespace Perimorph::Coupling
     std::vector<unsigned int> cells; ///< owned cells with tensors
     std::vector<typename SegmentResidual<dim>::PointTensors> tensors;
     std::vector<CellSprings<dim>>                            springs;
+
+    // Of cracks.
+    std::vector<bool>          replaced; ///< cells without elements, or empty
+    std::vector<CellPart<dim>> parts;    ///< of owned cells instead of elements
+    std::vector<FullySymmetricTensor<dim>> part_tensors;
+    CrackReport                            cracked;
   };
 
   /// Finds the bonds, drops those that leave the body or their material,
   /// calibrates them on an ideal lattice, and computes the share of the
   /// elements (numerics-explicit.md, section 3).
+  ///
+  /// Bonds that cross a crack are left out. Elements at cracks become their
+  /// visible parts, corrected so that cracks are free surfaces (CutResidual),
+  /// or with the cheap rule are left out where a crack touches them.
   ///
   /// @param alpha  blending weight per node
   /// @param progress  called with the number of bonds done and their total
@@ -58,5 +70,7 @@ namespace Perimorph::Coupling
     const std::vector<double>                           &horizon,
     const std::vector<BondMaterial>                     &materials,
     ElementShare                                         share,
-    const std::function<void(std::size_t, std::size_t)> &progress = {});
+    const std::function<void(std::size_t, std::size_t)> &progress = {},
+    const Bonds::CrackSet<dim>                          &cracks   = {},
+    CrackRule rule = CrackRule::consistent);
 } // namespace Perimorph::Coupling

@@ -180,10 +180,12 @@ namespace Perimorph::Coupling
     make_partition(std::vector<unsigned int> needed);
     /// Adds the elements (none where nothing is left for them) and the
     /// peridynamic term.
+    /// @param replaced  cells that something else stands in for, or empty
     void
     add_terms(const Mesh::RegionMap     &region,
               Scheme                     scheme,
               const std::vector<double> &element_weight,
+              const std::vector<bool>   &replaced,
               std::unique_ptr<Term>      particles);
     void
     make_correspondence(const Mesh::RegionMap      &region,
@@ -191,9 +193,10 @@ namespace Perimorph::Coupling
                         const Bonds::CrackSet<dim> &cracks,
                         const Progress             &progress);
     void
-    make_bonds(const Mesh::RegionMap    &region,
-               const CouplingParameters &parameters,
-               const Progress           &progress);
+    make_bonds(const Mesh::RegionMap      &region,
+               const CouplingParameters   &parameters,
+               const Bonds::CrackSet<dim> &cracks,
+               const Progress             &progress);
 
     const Mesh::DistributedMesh<dim>        &mesh;
     const BodyMaterials<dim>                &materials;

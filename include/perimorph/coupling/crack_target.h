@@ -2,6 +2,7 @@
 
 #include <perimorph/bonds/crack_traces.h>
 
+#include <functional>
 #include <map>
 
 namespace Perimorph::Coupling
@@ -22,11 +23,13 @@ namespace Perimorph::Coupling
   /// the changes add up to zero and have no moment.
   ///
   /// @param first_facet  facets from this index on
+  /// @param counts       only what is in the cells for which this is true
   /// Source: numerics-cracks.md, C3.
   template <int dim>
   NodeVectors<dim>
-  crack_target(const Mesh::NodalMesh<dim>    &mesh,
-               const Bonds::CrackSet<dim>    &cracks,
-               const Bonds::CrackTraces<dim> &traces,
-               unsigned int                   first_facet = 0);
+  crack_target(const Mesh::NodalMesh<dim>              &mesh,
+               const Bonds::CrackSet<dim>              &cracks,
+               const Bonds::CrackTraces<dim>           &traces,
+               unsigned int                             first_facet = 0,
+               const std::function<bool(unsigned int)> &counts      = {});
 } // namespace Perimorph::Coupling
