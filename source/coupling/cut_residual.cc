@@ -132,35 +132,20 @@ namespace Perimorph::Coupling
 
     /// Solves M x = right for a symmetric M with affine fields in its kernel
     /// and right orthogonal to it.
-    template <int dim>
     Eigen::VectorXd
     solve_semidefinite(const Eigen::SparseMatrix<double> &M,
                        const Eigen::VectorXd             &right)
     {
+      // A tiny diagonal keeps the factorisation regular; iteration takes its
+      // effect away. (Conjugate gradients stagnate at 3e-7 in space.)
+      Eigen::SparseMatrix<double> regular = M;
+      const double                scale   = M.diagonal().maxCoeff();
+      for (int k = 0; k < M.rows(); ++k)
+        regular.coeffRef(k, k) += 1e-11 * scale;
+      const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(regular);
       Eigen::VectorXd x = Eigen::VectorXd::Zero(right.size());
-      if constexpr (dim == 2)
-        {
-          // A tiny diagonal keeps the factorisation regular; iteration takes
-          // its effect away.
-          Eigen::SparseMatrix<double> regular = M;
-          const double                scale   = M.diagonal().maxCoeff();
-          for (int k = 0; k < M.rows(); ++k)
-            regular.coeffRef(k, k) += 1e-11 * scale;
-          const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(
-            regular);
-          for (unsigned int iteration = 0; iteration < 4; ++iteration)
-            x += factor.solve(right - M * x);
-        }
-      else
-        {
-          // Factors in space are too full.
-          Eigen::ConjugateGradient<Eigen::SparseMatrix<double>,
-                                   Eigen::Lower | Eigen::Upper>
-            solver(M);
-          solver.setTolerance(1e-13);
-          for (unsigned int iteration = 0; iteration < 2; ++iteration)
-            x += solver.solve(right - M * x);
-        }
+      for (unsigned int iteration = 0; iteration < 4; ++iteration)
+        x += factor.solve(right - M * x);
       return x;
     }
   } // namespace
@@ -361,7 +346,7 @@ namespace Perimorph::Coupling
         for (unsigned int t = 0; t < n3; ++t)
           right[known->second * n3 + t] =
             std::sqrt(triples<dim>().multiplicity[t]) * force[t];
-    const Eigen::VectorXd lambda = solve_semidefinite<dim>(matrix, right);
+    const Eigen::VectorXd lambda = solve_semidefinite(matrix, right);
 
     const Eigen::VectorXd rest  = right - matrix * lambda;
     double                scale = 0.;

@@ -31,13 +31,14 @@ namespace Perimorph::Coupling::CrackTests
   {
     std::vector<Bonds::CrackFacet<dim>> facets;
 
-    double             perturbation  = 0.2;
-    double             horizon_ratio = 2.;
-    std::string        law           = "linear elastic";
-    unsigned int       n_cells       = dim == 2 ? 24 : 8;
-    bool               everywhere    = false;
-    double             trace_radius  = 1.8; ///< of the target
-    CouplingParameters parameters    = {};
+    double             perturbation   = 0.2;
+    double             horizon_ratio  = 2.;
+    std::string        law            = "linear elastic";
+    double             poissons_ratio = 1. / 3.;
+    unsigned int       n_cells        = dim == 2 ? 24 : 8;
+    bool               everywhere     = false;
+    double             trace_radius   = 1.8; ///< of the target
+    CouplingParameters parameters     = {};
 
     std::unique_ptr<Mesh::DistributedMesh<dim>> mesh      = {};
     Mesh::RegionMap                             region    = {};
@@ -70,7 +71,7 @@ namespace Perimorph::Coupling::CrackTests
         where.mode = Mesh::Mode::peridynamics;
       region = Mesh::make_region_map(*mesh, where);
       materials.laws.push_back(
-        Materials::make_material<dim>(law, 1., 1. / 3., state));
+        Materials::make_material<dim>(law, 1., poissons_ratio, state));
       materials.bond_constants.push_back({1., state});
       problem = std::make_unique<CoupledProblem<dim>>(
         *mesh,

@@ -120,6 +120,25 @@ namespace Perimorph::Coupling
         }
   }
 
+  TEST(CutBonds, patch_test_in_space)
+  {
+    // A square crack of two triangles, turned against the cells.
+    const dealii::Point<3> a(.32, .31, .42), b(.7, .33, .5), c(.68, .71, .58),
+      d(.3, .69, .5);
+    CrackedBody<3> block;
+    block.facets           = {{{{a, b, c}}, 0, 0}, {{{a, c, d}}, 0, 0}};
+    block.everywhere       = true;
+    block.horizon_ratio    = 1.5;
+    block.poissons_ratio   = 0.25;
+    block.parameters.model = Model::bond_based;
+    block.build();
+    EXPECT_LT(block.problem->crack_report().residual, 1e-12);
+    dealii::Tensor<2, 3> gradient;
+    gradient[0][0] = 1.;
+    gradient[1][2] = 0.5;
+    EXPECT_LT(block.ghost(gradient), 1e-11);
+  }
+
   TEST(CutBonds, stiffness_is_symmetric_and_positive_definite)
   {
     // The body with an open crack is softer than the plain elements of the
