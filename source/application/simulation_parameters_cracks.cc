@@ -40,10 +40,6 @@ namespace Perimorph::Application
                            "true with cracks",
                            "false",
                            "Elements cannot be cut.");
-    if (!pre_cracks.empty() && coupling.model == Coupling::Model::bond_based)
-      errors.add_parameter("Cracks / pre-cracks",
-                           "cracks with model = bond based",
-                           "model = correspondence");
     if (!pre_cracks.empty() &&
         coupling.scheme == Coupling::Scheme::force_blending)
       errors.add_parameter("Peridynamics / coupling",
