@@ -413,6 +413,12 @@ namespace Perimorph::Application
                       "bonds (first Piola-Kirchhoff) to particles.pvd. Right "
                       "at one horizon and more from surfaces and elements.",
                       Bool());
+    prm.add_parameter("checkpoint",
+                      write_checkpoints,
+                      "After every accepted step write the file checkpoint: "
+                      "perimorph FILE.prm --resume FOLDER goes on from it, on "
+                      "any number of ranks.",
+                      Bool());
     prm.leave_subsection();
   }
 } // namespace Perimorph::Application

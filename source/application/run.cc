@@ -1,5 +1,7 @@
+#include <perimorph/application/checkpoint.h>
 #include <perimorph/application/run.h>
 #include <perimorph/application/simulation.h>
+#include <perimorph/base/collective.h>
 #include <perimorph/base/log.h>
 #include <perimorph/parameters/command_line.h>
 #include <perimorph/parameters/overrides.h>
@@ -40,6 +42,17 @@ namespace Perimorph::Application
       errors.throw_if_any();
       if (!command_line.output.empty())
         parameters.output_folder = command_line.output;
+      Output::Checkpoint earlier;
+      if (!command_line.resume.empty())
+        {
+          parameters.output_folder = command_line.resume;
+          const auto file          = checkpoint_file(command_line.resume);
+          Base::collectively(communicator, [&]() {
+            earlier = Output::read_checkpoint(file);
+          });
+          compare_parameters(prm, earlier, file, errors);
+          errors.throw_if_any();
+        }
       log << "Perimorph " << PERIMORPH_VERSION << ": " << parameters.case_name
           << " (" << dim << "D, "
           << dealii::Utilities::MPI::n_mpi_processes(communicator) << " rank"
@@ -48,6 +61,8 @@ namespace Perimorph::Application
           << ")" << std::endl;
       Simulation<dim> simulation(parameters, log, communicator);
       simulation.prepare();
+      if (!command_line.resume.empty())
+        simulation.resume(earlier);
       if (command_line.validate)
         {
           simulation.report_validation();
@@ -55,7 +70,9 @@ namespace Perimorph::Application
         }
       std::ostringstream parameters_text;
       prm.print_parameters(parameters_text, print_style);
-      simulation.run(parameters_text.str());
+      Output::Checkpoint constants;
+      store_parameters(prm, constants);
+      simulation.run(parameters_text.str(), constants);
     }
 
     void

@@ -1,3 +1,4 @@
+#include <perimorph/application/checkpoint.h>
 #include <perimorph/application/simulation.h>
 #include <perimorph/base/collective.h>
 #include <perimorph/base/log.h>
@@ -16,20 +17,22 @@ namespace Perimorph::Application
 {
   namespace
   {
-    /// Removes what an earlier run left in the folder: it must not stand
-    /// beside the results of this one.
+    /// Removes what an earlier run left in the folder, but for what this one
+    /// builds upon: it must not stand beside the results of this one.
     void
-    remove_old_results(const std::string &folder)
+    remove_old_results(const std::string           &folder,
+                       const std::set<std::string> &kept)
     {
       static const std::regex ours(
         "results\\.json|newton\\.csv|load_steps\\.csv|quantities\\.csv|"
-        "probe_.*\\.csv|"
+        "probe_.*\\.csv|checkpoint|checkpoint\\.part|"
         "crack_growth\\.csv|(solution|particles|cracks)(_[0-9]+\\.vtu|\\.pvd)");
       std::error_code                    ignored;
       std::vector<std::filesystem::path> old;
       for (const auto &entry :
            std::filesystem::directory_iterator(folder, ignored))
-        if (std::regex_match(entry.path().filename().string(), ours))
+        if (const auto name = entry.path().filename().string();
+            std::regex_match(name, ours) && kept.count(name) == 0)
           old.push_back(entry.path());
       for (const auto &path : old)
         std::filesystem::remove(path, ignored);
@@ -51,13 +54,18 @@ namespace Perimorph::Application
 
   template <int dim>
   void
-  Simulation<dim>::run(const std::string &parameters_text)
+  Simulation<dim>::run(const std::string        &parameters_text,
+                       const Output::Checkpoint &checkpoint)
   {
+    this->checkpoint = checkpoint;
+    store_mesh(*mesh, this->checkpoint);
     open_output(parameters_text);
     try
       {
         Method method = set_up(parameters.region.mode);
         report_set_up(method);
+        if (resumed)
+          restore(method);
         const bool complete = solve_load_steps(method);
         const auto state    = gather(method);
         evaluate(method, state);
@@ -83,7 +91,7 @@ namespace Perimorph::Application
         return;
       std::error_code status;
       std::filesystem::create_directories(folder, status);
-      remove_old_results(folder);
+      remove_old_results(folder, files_to_keep());
       std::ofstream parameter_copy(folder + "/parameters.prm");
       parameter_copy << parameters_text;
       parameter_copy.close();
@@ -93,7 +101,7 @@ namespace Perimorph::Application
                              "'" + folder + "', where nothing can be written",
                              "a folder that exists or can be made",
                              ""});
-      log.open(folder + "/log.txt");
+      log.open(folder + "/log.txt", resumed.has_value());
     });
     fields = std::make_unique<Output::FieldOutput<dim>>(folder, mesh->nodal());
     result = std::make_unique<Output::Results>(
@@ -102,6 +110,8 @@ namespace Perimorph::Application
       PERIMORPH_VERSION,
       dealii::Utilities::MPI::n_mpi_processes(communicator));
     files = {"parameters.prm", "log.txt", "results.json"};
+    if (resumed)
+      continue_output();
   }
 
   template <int dim>

@@ -124,15 +124,12 @@ namespace Perimorph::Application
         // The core has room before bonds there are cut; it does not shrink.
         double switched = 0.;
         auto   next     = make_region_map(*mesh, wider);
+        auto   alpha    = next.alpha;
         for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
-          next.alpha[n] = std::max(next.alpha[n], method.region.alpha[n]);
-        if (next.alpha != method.region.alpha)
+          alpha[n] = std::max(alpha[n], method.region.alpha[n]);
+        if (alpha != method.region.alpha)
           {
-            next.n_core = next.n_blending = next.n_elements = 0;
-            for (const double alpha : next.alpha)
-              ++(alpha == 1.  ? next.n_core
-                 : alpha > 0. ? next.n_blending
-                              : next.n_elements);
+            next.set_alpha(alpha);
             const double before = potential_energy(method);
             method              = solve_with(cracks, next, method);
             switched            = potential_energy(method) - before;
@@ -189,27 +186,20 @@ namespace Perimorph::Application
     if constexpr (dim == 2)
       {
         if (!growth_table)
-          {
-            Base::collectively(communicator, [&]() {
-              growth_table = std::make_unique<Output::CsvWriter>(
-                parameters.output_folder + "/crack_growth.csv",
-                std::vector<std::string>{"advance",
-                                         "step",
-                                         "time",
-                                         "crack",
-                                         "x",
-                                         "y",
-                                         "direction",
-                                         "length",
-                                         "released_energy",
-                                         "dissipated_energy",
-                                         "load_factor",
-                                         "mean_load_factor",
-                                         "energy_of_core_growth"},
-                log);
-            });
-            files.push_back("crack_growth.csv");
-          }
+          growth_table = &open_table("crack_growth.csv",
+                                     {"advance",
+                                      "step",
+                                      "time",
+                                      "crack",
+                                      "x",
+                                      "y",
+                                      "direction",
+                                      "length",
+                                      "released_energy",
+                                      "dissipated_energy",
+                                      "load_factor",
+                                      "mean_load_factor",
+                                      "energy_of_core_growth"});
         recent_loads.push_back(load_factor);
         if (recent_loads.size() > 3)
           recent_loads.erase(recent_loads.begin());
@@ -272,8 +262,8 @@ namespace Perimorph::Application
                                         const OnStep   &on_step,
                                         const OnNewton &on_newton)
   {
-    const double G_c = parameters.growth.fracture_energy;
-    Step         step{0, 0.};
+    const double G_c      = parameters.growth.fracture_energy;
+    Step         step     = progress.step;
     const auto   solve_at = [&](const double time) {
       // Linear: the solution of one load scaled is that of another.
       if (method.time != 0.)
@@ -293,8 +283,11 @@ namespace Perimorph::Application
     };
     // Unloaded until the first load factor is known: what happens to the core
     // before does no work.
-    solve_at(parameters.end_time);
-    counts_work = false;
+    if (progress.number == 0)
+      {
+        solve_at(parameters.end_time);
+        counts_work = false;
+      }
     while (n_advances < parameters.growth.maximum_advances)
       {
         auto advance = best_advance(method, on_newton);
@@ -315,7 +308,9 @@ namespace Perimorph::Application
         counts_work = true;
         solve_at(factor * method.time);
         ++step.number;
+        step.between = true;
         on_step(step);
+        step.between = false;
         cracks.append({advance->facet});
         method = solve_with(cracks, method.region, method);
         ++n_advances;
@@ -325,6 +320,7 @@ namespace Perimorph::Application
         dissipated_energy += G_c * advance->length;
         grown_length += advance->length;
         write_advance(*advance, step, method.time);
+        progress.number = n_advances;
         on_step(step);
       }
     log.warning("the largest number of advances was reached");

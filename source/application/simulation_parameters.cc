@@ -59,6 +59,7 @@ namespace Perimorph::Application
     , write_stress(texts.write_stress)
     , write_particles(texts.write_particles)
     , write_virial_stress(texts.write_virial_stress)
+    , write_checkpoints(texts.write_checkpoints)
   {
     const std::string stem =
       std::filesystem::path(parameter_file).stem().string();

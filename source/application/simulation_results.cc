@@ -3,6 +3,7 @@
 #include <perimorph/base/log.h>
 #include <perimorph/base/progress.h>
 #include <perimorph/bonds/crack_damage.h>
+#include <perimorph/fem/nodal_values.h>
 #include <perimorph/output/summary.h>
 
 #include <Eigen/Dense>
@@ -12,27 +13,6 @@ namespace Perimorph::Application
 {
   namespace
   {
-    /// A vector of unknowns complete on every rank, one entry per node.
-    template <int dim>
-    std::vector<dealii::Tensor<1, dim>>
-    complete(const Fem::Vector             &vector,
-             const Fem::NodePartition<dim> &partition)
-    {
-      std::vector<double> values(vector.size(), 0.);
-      const auto first = dim * static_cast<std::size_t>(partition.n_owned() > 0
-                                                          ? partition.global(0)
-                                                          : 0);
-      for (unsigned int k = 0; k < dim * partition.n_owned(); ++k)
-        values[first + k] = vector.local_element(k);
-      if (dealii::Utilities::MPI::n_mpi_processes(partition.communicator()) > 1)
-        dealii::Utilities::MPI::sum(values, partition.communicator(), values);
-      std::vector<dealii::Tensor<1, dim>> nodal(values.size() / dim);
-      for (std::size_t n = 0; n < nodal.size(); ++n)
-        for (int d = 0; d < dim; ++d)
-          nodal[n][d] = values[dim * n + d];
-      return nodal;
-    }
-
     /// A tensor without symmetry, by component: <name>_xy.
     template <int dim>
     void
@@ -69,7 +49,7 @@ namespace Perimorph::Application
     };
     Eigen::MatrixXd gram       = Eigen::MatrixXd::Zero(n, n);
     Eigen::VectorXd projection = Eigen::VectorXd::Zero(n);
-    const auto      u          = complete(method.displacement, partition);
+    const auto      u = Fem::to_nodal_values(method.displacement, partition);
     for (unsigned int node = 0; node < nodal.n_nodes(); ++node)
       for (unsigned int k = 0; k < n; ++k)
         {
@@ -98,11 +78,11 @@ namespace Perimorph::Application
     State<dim>  state;
     Fem::Vector displacement(method.displacement);
     displacement.update_ghost_values();
-    state.displacement = complete(displacement, partition);
+    state.displacement = Fem::to_nodal_values(displacement, partition);
     state.internal_force =
-      complete(method.equilibrium->internal_forces(), partition);
+      Fem::to_nodal_values(method.equilibrium->internal_forces(), partition);
     state.external_force =
-      complete(method.equilibrium->external_forces(), partition);
+      Fem::to_nodal_values(method.equilibrium->external_forces(), partition);
     state.time          = method.time;
     state.strain_energy = method.problem->strain_energy(displacement);
     return state;
@@ -274,6 +254,7 @@ namespace Perimorph::Application
   {
     const auto timer = timing.scope("companion");
     log << "Companion run: finite elements only, same mesh" << std::endl;
+    progress             = {};
     Method     method    = set_up(Mesh::Mode::finite_elements);
     const auto on_newton = [&](const Step &, const auto &iteration) {
       log << "  Newton iteration " << iteration.iteration

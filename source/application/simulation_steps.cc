@@ -50,8 +50,17 @@ namespace Perimorph::Application
     if (method.equilibrium->is_linear())
       step_control.maximum_cuts = 0;
     Solvers::LoadStepping stepping(step_control);
-    double                time = 0.;
-    for (unsigned int number = 1; number <= times.size(); ++number)
+    stepping.set_next_fraction(progress.fraction);
+    double time = 0.;
+    if (progress.number > 0)
+      {
+        time      = times[progress.number - 1];
+        Step step = progress.step;
+        if (parameters.growth.active && grows)
+          grow_cracks(method, step, on_step, on_newton);
+      }
+    for (unsigned int number = progress.number + 1; number <= times.size();
+         ++number)
       {
         const double          end = times[number - 1];
         Step                  step{number, end};
@@ -86,6 +95,8 @@ namespace Perimorph::Application
         if (reached == end)
           {
             step.number += n_advances;
+            progress.number   = number;
+            progress.fraction = stepping.next_fraction();
             on_step(step);
             if (parameters.growth.active && grows)
               grow_cracks(method, step, on_step, on_newton);
@@ -105,7 +116,8 @@ namespace Perimorph::Application
                   "may help.";
         if (reached != time)
           {
-            step.time = reached;
+            step.time    = reached;
+            step.between = true;
             on_step(step);
           }
         throw Base::SolveError(text.str());
@@ -121,12 +133,15 @@ namespace Perimorph::Application
   {
     const double end        = parameters.end_time;
     const double first_step = end / parameters.n_steps;
-    double       time       = 0.;
-    double       peak       = 0.;
+    double       time       = method.time;
+    double       peak       = progress.peak;
     unsigned int n_cuts     = 0;
+    if (progress.number > 0 && time == end)
+      return true;
 
-    Solvers::ArcLength arc;
-    for (unsigned int number = 1; number <= parameters.maximum_arc_steps;)
+    Solvers::ArcLength arc = progress.arc;
+    for (unsigned int number = progress.number + 1;
+         number <= parameters.maximum_arc_steps;)
       {
         Step step{number, time};
         log << "Arc step " << number << " from t = " << time << std::endl;
@@ -186,6 +201,9 @@ namespace Perimorph::Application
         method.time            = time;
         step.n_increments      = 1;
         step.relative_residual = record.residuals.back();
+        progress.number        = number;
+        progress.peak          = peak;
+        progress.arc           = arc;
         on_step(step);
         if (last)
           return true;
@@ -215,42 +233,36 @@ namespace Perimorph::Application
   bool
   Simulation<dim>::solve_load_steps(Method &method)
   {
-    const auto                        &folder = parameters.output_folder;
-    std::unique_ptr<Output::CsvWriter> newton_table, step_table, quantity_table;
-    Base::collectively(communicator, [&]() {
-      newton_table = std::make_unique<Output::CsvWriter>(
-        folder + "/newton.csv",
-        std::vector<std::string>{"step",
-                                 "time",
-                                 "iteration",
-                                 "residual",
-                                 "relative_residual",
-                                 "step_length",
-                                 "linear_iterations"},
-        log);
-      step_table = std::make_unique<Output::CsvWriter>(
-        folder + "/load_steps.csv",
-        std::vector<std::string>{"step",
-                                 "time",
-                                 "increments",
-                                 "newton_iterations",
-                                 "linear_iterations",
-                                 "relative_residual",
-                                 "strain_energy",
-                                 "external_work",
-                                 "released_energy",
-                                 "dissipated_energy",
-                                 "crack_growth",
-                                 "largest_displacement",
-                                 "imbalance"},
-        log);
-    });
-    files.push_back("newton.csv");
-    files.push_back("load_steps.csv");
-    last_state           = gather(method);
-    double largest_force = 0.;
-    if (parameters.write_fields)
-      write_fields(method, last_state, 0, 0.);
+    auto              &newton_table   = open_table("newton.csv",
+                                    {"step",
+                                                    "time",
+                                                    "iteration",
+                                                    "residual",
+                                                    "relative_residual",
+                                                    "step_length",
+                                                    "linear_iterations"});
+    auto              &step_table     = open_table("load_steps.csv",
+                                  {"step",
+                                                    "time",
+                                                    "increments",
+                                                    "newton_iterations",
+                                                    "linear_iterations",
+                                                    "relative_residual",
+                                                    "strain_energy",
+                                                    "external_work",
+                                                    "released_energy",
+                                                    "dissipated_energy",
+                                                    "crack_growth",
+                                                    "largest_displacement",
+                                                    "imbalance"});
+    Output::CsvWriter *quantity_table = nullptr;
+    if (progress.number == 0)
+      {
+        last_state = gather(method);
+        if (parameters.write_fields)
+          write_fields(method, last_state, 0, 0.);
+        write_checkpoint(method, last_state);
+      }
 
     const auto on_newton = [&](const Step                     &step,
                                const Solvers::NewtonIteration &iteration) {
@@ -262,13 +274,13 @@ namespace Perimorph::Application
       if (iteration.iteration > 0 && iteration.step_length < 1.)
         log << ", step length " << iteration.step_length;
       log << std::endl;
-      newton_table->write_row({step.number,
-                               step.time,
-                               iteration.iteration,
-                               iteration.residual,
-                               iteration.relative_residual,
-                               iteration.step_length,
-                               iteration.linear_iterations});
+      newton_table.write_row({step.number,
+                              step.time,
+                              iteration.iteration,
+                              iteration.residual,
+                              iteration.relative_residual,
+                              iteration.step_length,
+                              iteration.linear_iterations});
     };
     const auto on_step = [&](const Step &step) {
       result->add_count("newton_iterations", step.newton_iterations);
@@ -282,19 +294,19 @@ namespace Perimorph::Application
       largest_force =
         std::max(largest_force, method.equilibrium->largest_force_met());
       const double imbalance = post_processing->imbalance(state, largest_force);
-      step_table->write_row({step.number,
-                             step.time,
-                             step.n_increments,
-                             step.newton_iterations,
-                             step.linear_iterations,
-                             step.relative_residual,
-                             state.strain_energy,
-                             work,
-                             released_energy,
-                             dissipated_energy,
-                             grown_length,
-                             largest,
-                             imbalance});
+      step_table.write_row({step.number,
+                            step.time,
+                            step.n_increments,
+                            step.newton_iterations,
+                            step.linear_iterations,
+                            step.relative_residual,
+                            state.strain_energy,
+                            work,
+                            released_energy,
+                            dissipated_energy,
+                            grown_length,
+                            largest,
+                            imbalance});
       result->set("checks", "imbalance", imbalance);
       // Between the states of a path that is not straight the work is that of
       // the trapezoidal rule.
@@ -322,13 +334,7 @@ namespace Perimorph::Application
               std::vector<std::string> columns = {"step", "time"};
               for (const auto &quantity : values)
                 columns.push_back(quantity.name);
-              Base::collectively(communicator, [&]() {
-                quantity_table = std::make_unique<Output::CsvWriter>(
-                  folder + "/quantities.csv",
-                  columns,
-                  log);
-              });
-              files.push_back("quantities.csv");
+              quantity_table = &open_table("quantities.csv", columns);
             }
           std::vector<Output::CsvCell> row = {step.number, step.time};
           for (const auto &quantity : values)
@@ -337,8 +343,11 @@ namespace Perimorph::Application
         }
       if (parameters.write_fields)
         write_fields(method, state, step.number, step.time);
+      progress.step = step;
+      if (!step.between)
+        write_checkpoint(method, state);
     };
-    bool some_step_converged = false;
+    bool some_step_converged = progress.number > 0;
     try
       {
         return follow_loads(

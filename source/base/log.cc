@@ -32,11 +32,11 @@ namespace Perimorph::Base
     {}
 
     bool
-    open(const std::string &filename)
+    open(const std::string &filename, const bool append)
     {
       file.close();
       file.clear();
-      file.open(filename);
+      file.open(filename, append ? std::ios::app : std::ios::out);
       file << owed << std::flush;
       owed.clear();
       return file.good();
@@ -98,9 +98,9 @@ namespace Perimorph::Base
 
 
   void
-  Log::open(const std::string &filename)
+  Log::open(const std::string &filename, const bool append)
   {
-    if (active && !tee->open(filename))
+    if (active && !tee->open(filename, append))
       throw InputError("the log file " + filename + " cannot be written");
   }
 

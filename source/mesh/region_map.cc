@@ -157,6 +157,15 @@ namespace Perimorph::Mesh
     }
   } // namespace
 
+  void
+  RegionMap::set_alpha(const std::vector<double> &weights)
+  {
+    alpha  = weights;
+    n_core = n_blending = n_elements = 0;
+    for (const double weight : alpha)
+      ++(weight == 1. ? n_core : weight > 0. ? n_blending : n_elements);
+  }
+
   template <int dim>
   RegionMap
   make_region_map(const DistributedMesh<dim> &mesh,
@@ -182,14 +191,7 @@ namespace Perimorph::Mesh
             ""});
         set_alpha(mesh, parameters, map);
       }
-    for (const double alpha : map.alpha)
-      if (alpha == 1.)
-        ++map.n_core;
-      else if (alpha > 0.)
-        ++map.n_blending;
-      else
-        ++map.n_elements;
-
+    map.set_alpha(std::vector<double>(map.alpha));
     if (parameters.mode == Mode::coupled && map.n_core + map.n_blending == 0)
       throw Base::InputError(Base::InputMessage{
         "parameter 'Peridynamics / core size'",

@@ -3,6 +3,7 @@
 #include <perimorph/output/csv_writer.h>
 
 #include <charconv>
+#include <filesystem>
 #include <stdexcept>
 
 namespace Perimorph::Output
@@ -49,6 +50,22 @@ namespace Perimorph::Output
   }
 
 
+  CsvWriter::CsvWriter(const std::string              &filename,
+                       const std::vector<std::string> &columns,
+                       const std::uintmax_t            size,
+                       const Base::Log                &log)
+    : n_columns(columns.size())
+    , active(log.is_active())
+  {
+    if (!active)
+      return;
+    file.open(filename, std::ios::app);
+    n_bytes = size;
+    if (!file)
+      throw Base::InputError("the table " + filename + " cannot be written");
+  }
+
+
   void
   CsvWriter::write_row(const std::vector<CsvCell> &row)
   {
@@ -58,9 +75,12 @@ namespace Perimorph::Output
                              std::to_string(n_columns) + " columns");
     if (!active)
       return;
+    std::string line;
     for (std::size_t column = 0; column < row.size(); ++column)
-      file << (column == 0 ? "" : ",") << row[column].text;
-    file << std::endl;
+      line += (column == 0 ? "" : ",") + row[column].text;
+    line += '\n';
+    file << line << std::flush;
+    n_bytes += line.size();
   }
 
 
@@ -68,5 +88,30 @@ namespace Perimorph::Output
   CsvWriter::write_numbers(const std::vector<double> &row)
   {
     write_row(std::vector<CsvCell>(row.begin(), row.end()));
+  }
+
+
+  void
+  check_table(const std::string &filename, const std::uintmax_t size)
+  {
+    std::error_code status;
+    const auto      there = std::filesystem::file_size(filename, status);
+    if (status || there < size)
+      throw Base::InputError(Base::InputMessage{
+        "table '" + filename + "'",
+        status ? "no such file" : std::to_string(there) + " bytes",
+        "the " + std::to_string(size) +
+          " bytes or more that it had at the checkpoint",
+        ""});
+  }
+
+
+  void
+  cut_table(const std::string &filename, const std::uintmax_t size)
+  {
+    std::error_code status;
+    std::filesystem::resize_file(filename, size, status);
+    if (status)
+      throw Base::InputError("the table " + filename + " cannot be written");
   }
 } // namespace Perimorph::Output

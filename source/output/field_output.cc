@@ -183,6 +183,35 @@ namespace Perimorph::Output
 
 
   template <int dim>
+  std::map<std::string, typename FieldOutput<dim>::Steps>
+  FieldOutput<dim>::series() const
+  {
+    std::map<std::string, Steps> all;
+    for (const Series *series : {&solution, &particles, &cracks})
+      if (!series->steps.empty())
+        all[series->name] = series->steps;
+    return all;
+  }
+
+
+  template <int dim>
+  void
+  FieldOutput<dim>::restore(const std::map<std::string, Steps> &earlier)
+  {
+    if (!is_active())
+      return;
+    for (Series *series : {&solution, &particles, &cracks})
+      {
+        const auto found = earlier.find(series->name);
+        if (found == earlier.end())
+          continue;
+        series->steps = found->second;
+        write_pvd(folder + "/" + series->name + ".pvd", series->steps);
+      }
+  }
+
+
+  template <int dim>
   std::vector<std::string>
   FieldOutput<dim>::files() const
   {

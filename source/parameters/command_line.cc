@@ -26,6 +26,9 @@ namespace Perimorph::Parameters
          "\"Section/entry=value\"",
          "set an entry, stronger than the file; may be repeated"},
         {"--output", "DIR", "write results into this folder"},
+        {"--resume",
+         "DIR",
+         "go on from the checkpoint in this folder, write into it"},
         {"--validate",
          "",
          "read the file and the mesh, check, report, do not solve"},
@@ -121,6 +124,8 @@ namespace Perimorph::Parameters
                      name + " " + option->value);
         else if (name == "--set")
           command_line.overrides.push_back(value);
+        else if (name == "--resume")
+          command_line.resume = value;
         else
           command_line.output = value;
       }
@@ -129,6 +134,11 @@ namespace Perimorph::Parameters
     if (needs_file && command_line.parameter_file.empty() && errors.empty())
       errors.add("command line\n  found no parameter file; allowed: "
                  "perimorph FILE.prm [options]. See perimorph --help");
+    if (!command_line.resume.empty() && !command_line.output.empty())
+      errors.add(
+        "command line\n  found --resume " + command_line.resume +
+        " and --output " + command_line.output +
+        "; allowed: one of them. A resumed run goes on in its folder.");
     errors.throw_if_any();
     return command_line;
   }
@@ -157,7 +167,10 @@ namespace Perimorph::Parameters
             "\n"
             "Example:\n"
             "  perimorph plate.prm --set \"Peridynamics/horizon ratio=3\" "
-            "--output output/m3\n";
+            "--output output/m3\n"
+            "and, if it was stopped, with the same entries:\n"
+            "  perimorph plate.prm --set \"Peridynamics/horizon ratio=3\" "
+            "--resume output/m3\n";
     return text;
   }
 } // namespace Perimorph::Parameters

@@ -297,6 +297,20 @@ namespace Perimorph::Solvers
     });
   }
 
+  template <int dim>
+  void
+  Equilibrium<dim>::restore(const Memory &memory,
+                            const double  time,
+                            Vector       &displacement)
+  {
+    constraints.restore(memory.supports);
+    evaluate_loads(time);
+    evaluate(time, displacement, false);
+    displacement.zero_out_ghost_values();
+    problem.forget_stress();
+    largest_force = memory.largest_force;
+  }
+
   template class Equilibrium<2>;
   template class Equilibrium<3>;
 } // namespace Perimorph::Solvers

@@ -4,11 +4,13 @@
 #include <perimorph/base/timing.h>
 #include <perimorph/fem/rigid_motion.h>
 #include <perimorph/fracture/crack_tips.h>
+#include <perimorph/output/checkpoint.h>
 #include <perimorph/output/csv_writer.h>
 #include <perimorph/output/field_output.h>
 #include <perimorph/output/results.h>
 #include <perimorph/solvers/equilibrium.h>
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -41,11 +43,19 @@ namespace Perimorph::Application
     void
     report_validation();
 
+    /// After prepare(): run() goes on from this checkpoint of the output
+    /// folder.
+    /// @throws Base::InputError  another mesh, a table that is missing
+    void
+    resume(const Output::Checkpoint &earlier);
+
     /// Solves all load steps and writes the results.
     /// @param parameters_text  the parameters as used, saved with the results
+    /// @param checkpoint  what all checkpoints of this run hold: parameters
     /// @throws Base::InputError, Base::SolveError
     void
-    run(const std::string &parameters_text);
+    run(const std::string        &parameters_text,
+        const Output::Checkpoint &checkpoint = {});
 
     /// Valid after run().
     const Output::Results &
@@ -113,6 +123,16 @@ namespace Perimorph::Application
       unsigned int newton_iterations = 0;
       unsigned int linear_iterations = 0;
       double       relative_residual = 0.;
+      bool         between = false; ///< inside of an event: no checkpoint
+    };
+    /// How far the loads were followed; they are followed from here on.
+    struct Progress
+    {
+      unsigned int       number   = 0;  ///< load steps, arc steps or advances
+      double             fraction = 1.; ///< of the next increment of a step
+      double             peak     = 0.; ///< largest time of the arc length
+      Solvers::ArcLength arc;
+      Step               step{0, 0.}; ///< the last one accepted
     };
     using OnStep = std::function<void(const Step &)>;
     using OnNewton =
@@ -193,6 +213,28 @@ namespace Perimorph::Application
     void
     finish(Output::Status status);
 
+    // Checkpoints.
+    /// Keeps the run behind a step that was accepted.
+    void
+    write_checkpoint(const Method &method, const State<dim> &state);
+    /// Brings a method, fresh from set_up(), to the state of the checkpoint.
+    void
+    restore(Method &method);
+    /// Drops from tables and series what came behind the checkpoint.
+    void
+    continue_output();
+    /// Files in the output folder that the checkpoint builds upon.
+    std::set<std::string>
+    files_to_keep() const;
+    /// A new table, or the one of the run that is continued.
+    Output::CsvWriter &
+    open_table(const std::string              &name,
+               const std::vector<std::string> &columns);
+    /// Calls action(name, member) for all plain numbers of a checkpoint.
+    template <typename Action>
+    void
+    for_each_number(const Action &action);
+
     SimulationParameters<dim> parameters;
     Base::Log                &log;
     MPI_Comm                  communicator;
@@ -212,10 +254,10 @@ namespace Perimorph::Application
     bool                                        point_supports_checked = false;
 
     // Growth of cracks.
-    std::unique_ptr<Output::CsvWriter> growth_table;
-    unsigned int                       n_advances = 0;
-    std::vector<double>                recent_loads; ///< of the advances
-    std::set<unsigned int>             grown; ///< facets that tips start from
+    Output::CsvWriter     *growth_table = nullptr;
+    unsigned int           n_advances   = 0;
+    std::vector<double>    recent_loads; ///< of the advances
+    std::set<unsigned int> grown;        ///< facets that tips start from
     double released_energy = 0., dissipated_energy = 0., grown_length = 0.;
     double switched_energy = 0.; ///< change by the growth of the core
 
@@ -223,5 +265,15 @@ namespace Perimorph::Application
     State<dim> last_state;
     double     work        = 0.;
     bool       counts_work = true;
+
+    // Progress, tables by name, checkpoints.
+    Progress progress;
+    double   largest_force = 0.;
+    std::map<std::string, std::unique_ptr<Output::CsvWriter>> tables;
+    Output::Checkpoint                checkpoint; ///< the next one
+    std::optional<Output::Checkpoint> resumed;    ///< until it is restored
+    std::map<std::string, std::uintmax_t>
+         earlier_tables; ///< sizes of those that are continued [bytes]
+    bool checkpoint_is_announced = false;
   };
 } // namespace Perimorph::Application

@@ -70,7 +70,7 @@ namespace Perimorph::Application
       reference_source;
 
     bool write_fields = true, write_stress = true, write_particles = true,
-         write_virial_stress = false;
+         write_virial_stress = false, write_checkpoints = true;
   };
 
   /// Elastic constants of one material, before laws are made of them.
@@ -148,7 +148,8 @@ namespace Perimorph::Application
     bool                                        has_reference_displacement;
     std::vector<ReferenceData>                  reference_data;
 
-    bool write_fields, write_stress, write_particles, write_virial_stress;
+    bool write_fields, write_stress, write_particles, write_virial_stress,
+      write_checkpoints;
 
     /// True if the law is not that of small strain.
     bool

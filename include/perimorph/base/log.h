@@ -26,9 +26,10 @@ namespace Perimorph::Base
     operator=(const Log &) = delete;
 
     /// Writes to @p filename from now on; what was said before comes first.
+    /// @param append   behind what an earlier run left there
     /// @throws InputError   rank 0 only: the file cannot be written
     void
-    open(const std::string &filename);
+    open(const std::string &filename, bool append = false);
 
     /// Prints @p text at once as "Warning: text" on a line of its own and
     /// keeps it for the summary. A text that was said before is dropped. To

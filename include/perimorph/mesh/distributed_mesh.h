@@ -59,6 +59,14 @@ namespace Perimorph::Mesh
     std::vector<std::string>
     volume_names() const;
 
+    /// Node of each point of the mesh file: a numbering that does not depend on
+    /// the number of ranks.
+    const std::vector<unsigned int> &
+    node_of_file_point() const
+    {
+      return node_of_point;
+    }
+
     /// Piece of the body (connected through nodes) each node belongs to.
     const std::vector<unsigned int> &
     pieces() const

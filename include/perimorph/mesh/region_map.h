@@ -55,6 +55,10 @@ namespace Perimorph::Mesh
     unsigned int n_core     = 0; ///< nodes with alpha = 1
     unsigned int n_blending = 0; ///< nodes with 0 < alpha < 1
     unsigned int n_elements = 0; ///< nodes with alpha = 0
+
+    /// Sets weights and counts.
+    void
+    set_alpha(const std::vector<double> &weights);
   };
 
   /// Places the peridynamic region. A size in horizons is measured with the

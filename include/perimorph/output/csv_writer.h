@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <fstream>
 #include <string>
 #include <type_traits>
@@ -59,6 +60,22 @@ namespace Perimorph::Output
               const std::vector<std::string> &columns,
               const Base::Log                &log);
 
+    /// Goes on behind the rows that an earlier run left in a file, see
+    /// check_table() and cut_table().
+    /// @param size   [bytes] of the file
+    /// @throws InputError   rank 0 only: the file cannot be written
+    CsvWriter(const std::string              &filename,
+              const std::vector<std::string> &columns,
+              const std::uintmax_t            size,
+              const Base::Log                &log);
+
+    /// [bytes] written so far, all of them in the file; zero on other ranks.
+    std::uintmax_t
+    size() const
+    {
+      return n_bytes;
+    }
+
     /// @param row   as many cells as there are columns
     void
     write_row(const std::vector<CsvCell> &row);
@@ -71,5 +88,16 @@ namespace Perimorph::Output
     const std::size_t n_columns;
     const bool        active;
     std::ofstream     file;
+    std::uintmax_t    n_bytes = 0;
   };
+
+  /// Sees to it that a table can be cut back to this size.
+  /// @throws InputError   no such file, or a shorter one
+  void
+  check_table(const std::string &filename, const std::uintmax_t size);
+
+  /// Drops what comes behind the first @p size bytes of a table.
+  /// @throws InputError   the file cannot be written
+  void
+  cut_table(const std::string &filename, const std::uintmax_t size);
 } // namespace Perimorph::Output

@@ -7,6 +7,7 @@
 #include <deal.II/base/tensor.h>
 
 #include <array>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -98,6 +99,18 @@ namespace Perimorph::Output
       const std::vector<std::array<dealii::Point<dim>, dim>> &corners,
       const Fields<dim>                                      &fields);
 
+    /// Time and file of each step of a series.
+    using Steps = std::vector<std::pair<double, std::string>>;
+
+    /// What has been written, by names of series.
+    std::map<std::string, Steps>
+    series() const;
+
+    /// Goes on behind the steps of an earlier run; its list is written anew.
+    /// @throws Base::InputError   the file cannot be written
+    void
+    restore(const std::map<std::string, Steps> &earlier);
+
     /// The series written so far, e.g. {"solution.pvd"}; names in the folder.
     std::vector<std::string>
     files() const;
@@ -105,8 +118,8 @@ namespace Perimorph::Output
   private:
     struct Series
     {
-      const std::string                           name;
-      std::vector<std::pair<double, std::string>> steps;
+      const std::string name;
+      Steps             steps;
     };
 
     void

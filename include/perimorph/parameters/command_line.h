@@ -13,6 +13,8 @@ namespace Perimorph::Parameters
     std::vector<std::string> overrides;
     /// folder of --output; empty: as the parameter file says
     std::string output;
+    /// folder of --resume: a run that goes on from its checkpoint; empty: none
+    std::string resume;
     bool        validate         = false;
     bool        print_parameters = false;
     bool        help             = false;

@@ -99,6 +99,24 @@ namespace Perimorph::Solvers
       return external;
     }
 
+    /// What the next solve needs of the earlier ones besides the displacement.
+    struct Memory
+    {
+      double                           largest_force = 0.;
+      typename Constraints<dim>::State supports;
+    };
+
+    Memory
+    memory() const
+    {
+      return {largest_force, constraints.state()};
+    }
+
+    /// Goes on from a state of equilibrium that was found before; its forces
+    /// are evaluated anew.
+    void
+    restore(const Memory &memory, double time, Vector &displacement);
+
     /// Largest norm of loads, reactions or first residuals over the solves so
     /// far.
     double

@@ -29,6 +29,20 @@ namespace Perimorph::Solvers
             const std::function<void(double, double)> &on_cut,
             const std::function<void(double)>         &on_intermediate);
 
+    /// Fraction of a step that the next increment tries: what it needs to go
+    /// on later as if it had not stopped.
+    double
+    next_fraction() const
+    {
+      return fraction;
+    }
+
+    void
+    set_next_fraction(const double value)
+    {
+      fraction = value;
+    }
+
     unsigned int
     n_cuts() const
     {
@@ -37,8 +51,7 @@ namespace Perimorph::Solvers
 
   private:
     LoadSteppingParameters parameters;
-    /// Fraction of a step that the next increment tries.
-    double       fraction   = 1.;
-    unsigned int total_cuts = 0;
+    double                 fraction   = 1.;
+    unsigned int           total_cuts = 0;
   };
 } // namespace Perimorph::Solvers
