@@ -77,7 +77,7 @@ TEST(CommandLine, names_the_nearest_option)
 {
   EXPECT_EQ(message({"a.prm", "--validat"}),
             "Error: option '--validat' is not known; did you mean "
-            "'--validate'? It has: --set, --output, --validate, "
+            "'--validate'? It has: --set, --output, --resume, --validate, "
             "--print-parameters, --help, --version");
 }
 
@@ -89,6 +89,14 @@ TEST(CommandLine, wants_values)
   EXPECT_EQ(message({"a.prm", "--set", "--validate"}),
             "Error: option '--set'\n  found no value; allowed: --set "
             "\"Section/entry=value\"");
+}
+
+TEST(CommandLine, resumes_in_one_folder)
+{
+  EXPECT_EQ(parse({"a.prm", "--resume", "out"}).resume, "out");
+  EXPECT_EQ(message({"a.prm", "--resume", "out", "--output=other"}),
+            "Error: command line\n  found --resume out and --output other; "
+            "allowed: one of them. A resumed run goes on in its folder.");
 }
 
 TEST(CommandLine, refuses_values_of_switches)
@@ -104,6 +112,7 @@ TEST(CommandLine, help_lists_options_and_exit_codes)
   for (const std::string part : {"Usage: perimorph FILE.prm",
                                  "--set \"Section/entry=value\"",
                                  "--output DIR",
+                                 "--resume DIR",
                                  "--validate",
                                  "--print-parameters",
                                  "--version",
