@@ -42,14 +42,22 @@ def write_parameters(path, entries):
 
 
 def read_table(path):
-    """Columns of a .csv file by name; lines that start with # are comments."""
+    """Columns of a .csv file by name, numbers or text; lines that start with #
+    are comments."""
     with open(path) as file:
         lines = [line for line in file if line.strip() and line[0] != "#"]
     rows = list(csv.reader(lines))
     return {
-        name: [float(row[k]) for row in rows[1:]]
+        name: [number_or_text(row[k]) for row in rows[1:]]
         for k, name in enumerate(rows[0])
     }
+
+
+def number_or_text(cell):
+    try:
+        return float(cell)
+    except ValueError:
+        return cell
 
 
 class Solution(dict):
@@ -69,10 +77,14 @@ class Solution(dict):
 class Study:
     """Runs the program and judges what it gives, row by row."""
 
-    def __init__(self, description, **groups):
+    def __init__(self, description, known_misses=None, **groups):
+        """known_misses: row -> largest distance from its reference; such a row
+        is beyond its limit, named as that, and fails only further out."""
         self.arguments = parse_arguments(description, **groups)
         self.runner = Runner(self.arguments)
         self.failures = Failures()
+        self.known_misses = known_misses or {}
+        self.missed = []
 
     def part(self, name, measured="measured", reference="reference"):
         """False if --only excludes it; else prints its name as a heading."""
@@ -111,13 +123,18 @@ class Study:
 
     def row(self, what, measured, reference, limit, good):
         """One row of the table; good decides."""
+        word = "ok" if good else "FAILED"
+        if not good and what in self.known_misses and abs(
+                measured - (reference or 0.)) <= self.known_misses[what]:
+            self.missed.append(what)
+            good, word = True, "known miss"
         # The harness prints case by case; here the row is the print.
         with contextlib.redirect_stdout(io.StringIO()):
             self.failures.begin(what)
             self.failures.check(good, "beyond the limit")
             self.failures.end()
         print(LAYOUT % (what, number(measured), number(reference), limit,
-                        "ok" if good else "FAILED"))
+                        word))
         sys.stdout.flush()
 
     def below(self, what, measured, limit):
@@ -147,6 +164,8 @@ class Study:
 
     def finish(self):
         print("\n%d rows" % self.failures.n_cases)
+        for what in self.missed:
+            print("  known miss: " + what)
         finish(self.failures)
 
 
