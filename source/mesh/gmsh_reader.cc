@@ -409,6 +409,10 @@ namespace Perimorph::Mesh
             errors = {"mesh file '" + file +
                       "' cannot be read: " + error.what()};
           }
+        catch (const std::string &error) // thrown by gmsh
+          {
+            errors = {"mesh file '" + file + "' cannot be read: " + error};
+          }
         for (auto &error : errors)
           if (error.rfind("mesh\n", 0) == 0)
             error.replace(0, 4, "mesh '" + file + "'");

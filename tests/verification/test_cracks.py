@@ -37,7 +37,19 @@ KNOWN_MISSES = {
     "centre crack, gmsh, m 1.5, h/a 0.1": .014,
     "centre crack, gmsh, m 2, h/a 0.1: domain dependence %": .45,
     "slant 15, uniform, h/a 0.1: kink, degrees": 15.,
+    "slant 15, uniform, h/a 0.05: kink, degrees": 13.5,
+    "slant 15, distorted, h/a 0.1: kink, degrees": 15.5,
+    "slant 15, gmsh, h/a 0.1: kink, degrees": 16.,
+    "slant 30, uniform, h/a 0.05: kink, degrees": 3.,
+    "slant 30, distorted, h/a 0.1: kink, degrees": 11.,
+    "slant 30, gmsh, h/a 0.1: kink, degrees": 11.,
+    "slant 45, distorted, h/a 0.1: kink, degrees": 28.,
+    "slant 45, gmsh, h/a 0.1: kink, degrees": 28.,
     "inclined edge crack, gmsh, m 2: kink, degrees": 3.5,
+    "inclined edge crack, uniform, m 2: kink, degrees": 4.,
+    "inclined edge crack, distorted, m 2: kink, degrees": 3.5,
+    "inclined edge crack, uniform, m 3: kink, degrees": 3.,
+    "inclined edge crack, gmsh, m 3: kink, degrees": 4.,
 }
 
 
