@@ -286,6 +286,18 @@ namespace Perimorph::Application
     if (progress.number == 0)
       {
         solve_at(parameters.end_time);
+        const Fem::Vector whole(method.displacement);
+        solve_at(0.5 * parameters.end_time);
+        Fem::Vector rest(method.displacement);
+        rest.add(-0.5, whole);
+        if (rest.l2_norm() > 1e-8 * whole.l2_norm())
+          throw Base::InputError(Base::InputMessage{
+            "parameter 'Cracks / growth control'",
+            "'events' with loads that are not in proportion "
+            "to t",
+            "loads and displacements that are multiples of t",
+            "Write P*t instead of P, or use load steps."});
+        solve_at(parameters.end_time);
         counts_work = false;
       }
     while (n_advances < parameters.growth.maximum_advances)
