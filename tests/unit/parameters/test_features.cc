@@ -69,7 +69,7 @@ TEST_F(Features, with_a_slip_in_the_shape)
 {
   expect_message("bal 0 0 1",
                  "found 'bal 0 0 1', where 'bal' is no shape; did you mean "
-                 "'ball'? It has: point, segment, plane, box, ball");
+                 "'ball'? It has: point, segment, plane, triangle, box, ball");
 }
 
 TEST_F(Features, with_a_word_among_the_numbers)
