@@ -10,11 +10,12 @@ namespace Perimorph::Bonds
                const std::vector<double>  &alpha,
                const std::vector<double>  &horizon,
                const CrackSet<dim>        &cracks,
-               std::size_t                &n_hidden)
+               std::size_t                &n_hidden,
+               const BrokenBonds          &broken)
   {
     n_hidden = 0;
     std::vector<double> damage(mesh.n_nodes(), 0.);
-    if (cracks.empty())
+    if (cracks.empty() && broken.empty())
       return damage;
     const Base::PointCloud<dim> cloud(mesh.nodes);
     std::vector<unsigned int>   near;
@@ -24,7 +25,7 @@ namespace Perimorph::Bonds
           std::make_pair(mesh.nodes[n], mesh.nodes[n]));
         box.extend(horizon[n]);
         cracks.near(box, near);
-        if (!(alpha[n] > 0.) || near.empty())
+        if (!(alpha[n] > 0.) || (near.empty() && broken.count(n) == 0))
           continue;
         double volume = 0., hidden = 0.;
         cloud.within(mesh.nodes[n], horizon[n] * (1. + horizon_slack), near);
@@ -32,7 +33,8 @@ namespace Perimorph::Bonds
           if (k != n)
             {
               volume += mesh.volume[k];
-              if (cracks.crosses(mesh.nodes[n], mesh.nodes[k]))
+              if (cracks.crosses(mesh.nodes[n], mesh.nodes[k]) ||
+                  broken.contains(n, k))
                 {
                   hidden += mesh.volume[k];
                   ++n_hidden;
@@ -48,11 +50,13 @@ namespace Perimorph::Bonds
                   const std::vector<double> &,
                   const std::vector<double> &,
                   const CrackSet<2> &,
-                  std::size_t &);
+                  std::size_t &,
+                  const BrokenBonds &);
   template std::vector<double>
   crack_damage<3>(const Mesh::NodalMesh<3> &,
                   const std::vector<double> &,
                   const std::vector<double> &,
                   const CrackSet<3> &,
-                  std::size_t &);
+                  std::size_t &,
+                  const BrokenBonds &);
 } // namespace Perimorph::Bonds

@@ -1,9 +1,11 @@
 #include <perimorph/base/collective.h>
 #include <perimorph/base/point_cloud.h>
 #include <perimorph/coupling/bond_term.h>
+#include <perimorph/coupling/broken_families.h>
 #include <perimorph/coupling/cell_part_term.h>
 #include <perimorph/coupling/correspondence_term.h>
 #include <perimorph/coupling/coupled_problem.h>
+#include <perimorph/coupling/grounding_term.h>
 #include <perimorph/coupling/segment_piece_term.h>
 #include <perimorph/coupling/virial_field.h>
 
@@ -140,7 +142,8 @@ namespace Perimorph::Coupling
                                       const CouplingParameters   &parameters,
                                       const Progress             &progress,
                                       std::vector<unsigned int>   more_nodes,
-                                      const Bonds::CrackSet<dim> &cracks)
+                                      const Bonds::CrackSet<dim> &cracks,
+                                      const Bonds::BrokenBonds   &broken)
     : mesh(mesh)
     , materials(materials)
     , more_nodes(std::move(more_nodes))
@@ -155,7 +158,7 @@ namespace Perimorph::Coupling
                                                    std::vector<double>()));
       }
     else if (parameters.model == Model::correspondence)
-      make_correspondence(region, parameters, cracks, progress);
+      make_correspondence(region, parameters, cracks, broken, progress);
     else
       make_bonds(region, parameters, cracks, progress);
 
@@ -173,6 +176,7 @@ namespace Perimorph::Coupling
   CoupledProblem<dim>::make_correspondence(const Mesh::RegionMap    &region,
                                            const CouplingParameters &parameters,
                                            const Bonds::CrackSet<dim> &cracks,
+                                           const Bonds::BrokenBonds   &broken,
                                            const Progress             &progress)
   {
     const auto      &nodal  = mesh.nodal();
@@ -203,7 +207,17 @@ namespace Perimorph::Coupling
                                    region.horizon,
                                    options,
                                    cracks);
+      if (!broken.empty())
+        set = break_bonds(nodal,
+                          region.horizon,
+                          options,
+                          broken,
+                          set,
+                          local_counts.isolated);
     });
+    std::vector<unsigned int> parts;
+    if (!broken.empty())
+      parts = find_parts(nodal, region.alpha, set, mesh.communicator());
     local_counts.particles = set.n_particles();
     local_counts.bonds     = set.n_bonds();
 
@@ -219,6 +233,38 @@ namespace Perimorph::Coupling
               complement(region.alpha),
               {},
               std::move(term));
+    if (!broken.empty())
+      ground_loose_parts(parts);
+  }
+
+  template <int dim>
+  void
+  CoupledProblem<dim>::ground_loose_parts(
+    const std::vector<unsigned int> &parts)
+  {
+    std::vector<unsigned int> size;
+    for (const unsigned int part : parts)
+      {
+        size.resize(std::max<std::size_t>(size.size(), part + 1), 0);
+        ++size[part];
+      }
+    if (size.size() == 1)
+      return;
+    const unsigned int largest =
+      std::max_element(size.begin(), size.end()) - size.begin();
+    // 1e-11 of the diagonal of the stiffness (numerics-damage.md, section 5).
+    double                    mean_spacing = 0.;
+    std::vector<unsigned int> loose;
+    for (unsigned int n = 0; n < parts.size(); ++n)
+      {
+        mean_spacing += mesh.nodal().spacing[n] / parts.size();
+        if (parts[n] != largest && mesh.nodal().owns_node(n))
+          loose.push_back(node_partition->local(n));
+      }
+    contributions.push_back(std::make_unique<GroundingTerm<dim>>(
+      std::move(loose),
+      1e-11 * constants_at_rest(*materials.laws[0]).youngs_modulus *
+        std::pow(mean_spacing, dim - 2)));
   }
 
   template <int dim>
@@ -527,6 +573,7 @@ namespace Perimorph::Coupling
     total.bonds        = sum(local_counts.bonds);
     total.dropped      = sum(local_counts.dropped);
     total.active_cells = sum(local_counts.active_cells);
+    total.isolated     = sum(local_counts.isolated);
     return total;
   }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <perimorph/bonds/broken_bonds.h>
 #include <perimorph/coupling/bond_set.h>
 #include <perimorph/coupling/consistent_families.h>
 #include <perimorph/fem/elastic_cells.h>
@@ -76,13 +77,15 @@ namespace Perimorph::Coupling
 
     /// @param more_nodes  nodes that every rank must see (constraints)
     /// @param cracks      only needed by the constructor
+    /// @param broken      the same; bonds of the correspondence model
     CoupledProblem(const Mesh::DistributedMesh<dim> &mesh,
                    const Mesh::RegionMap            &region,
                    const BodyMaterials<dim>         &materials,
                    const CouplingParameters         &parameters,
                    const Progress                   &progress   = {},
                    std::vector<unsigned int>         more_nodes = {},
-                   const Bonds::CrackSet<dim>       &cracks     = {});
+                   const Bonds::CrackSet<dim>       &cracks     = {},
+                   const Bonds::BrokenBonds         &broken     = {});
 
     const Fem::NodePartition<dim> &
     partition() const
@@ -161,6 +164,7 @@ namespace Perimorph::Coupling
       std::size_t bonds        = 0;
       std::size_t dropped      = 0; ///< bonds that would leave the body
       std::size_t active_cells = 0;
+      std::size_t isolated     = 0; ///< particles without enough intact bonds
     };
 
     /// Sums over all ranks.
@@ -191,7 +195,12 @@ namespace Perimorph::Coupling
     make_correspondence(const Mesh::RegionMap      &region,
                         const CouplingParameters   &parameters,
                         const Bonds::CrackSet<dim> &cracks,
+                        const Bonds::BrokenBonds   &broken,
                         const Progress             &progress);
+    /// Holds what broke off, so that the problem stays regular.
+    /// @param parts  of the body, see find_parts()
+    void
+    ground_loose_parts(const std::vector<unsigned int> &parts);
     void
     make_bonds(const Mesh::RegionMap      &region,
                const CouplingParameters   &parameters,

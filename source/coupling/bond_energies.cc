@@ -1,0 +1,96 @@
+#include <perimorph/coupling/bond_energies.h>
+#include <perimorph/peridynamics/correspondence.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace Perimorph::Coupling
+{
+  namespace
+  {
+    using Half = std::pair<std::array<unsigned int, 2>, double>;
+
+    /// Sorts by nodes and adds up what belongs to the same bond, in an order
+    /// that does not depend on who sent it.
+    void
+    merge(std::vector<Half> &halves)
+    {
+      std::sort(halves.begin(), halves.end());
+      std::size_t last = 0;
+      for (std::size_t k = 1; k < halves.size(); ++k)
+        if (halves[k].first == halves[last].first)
+          halves[last].second += halves[k].second;
+        else
+          halves[++last] = halves[k];
+      halves.resize(std::min(halves.size(), last + 1));
+    }
+  } // namespace
+
+  template <int dim>
+  std::vector<BondEnergy>
+  bond_energies(const Mesh::NodalMesh<dim>                          &mesh,
+                const Peridynamics::FamilySet<dim>                  &families,
+                const typename Fem::ElasticCells<dim>::MaterialList &laws,
+                const std::vector<dealii::Tensor<1, dim>> &displacement,
+                const MPI_Comm                             communicator)
+  {
+    std::vector<Half>                   halves;
+    std::vector<dealii::Tensor<1, dim>> xi, eta, forces;
+    for (std::size_t p = 0; p < families.n_particles(); ++p)
+      {
+        const unsigned int node  = families.node[p];
+        const std::size_t  begin = families.offsets[p];
+        const std::size_t  n     = families.offsets[p + 1] - begin;
+        xi.resize(n);
+        eta.resize(n);
+        forces.resize(n);
+        for (std::size_t b = 0; b < n; ++b)
+          {
+            const unsigned int other = families.neighbor[begin + b];
+            xi[b]                    = mesh.nodes[other] - mesh.nodes[node];
+            eta[b]                   = displacement[other] - displacement[node];
+          }
+        const Peridynamics::Family<dim> family{
+          static_cast<unsigned int>(n),
+          xi.data(),
+          families.gradient_weight.data() + begin,
+          families.bond_weight.data() + begin,
+          families.stabilization[p]};
+        const auto H = displacement_gradient(family, eta.data());
+        family_forces(family,
+                      eta.data(),
+                      H,
+                      laws[families.material[p]]->first_piola_kirchhoff(H),
+                      forces.data());
+        for (std::size_t b = 0; b < n; ++b)
+          {
+            const unsigned int other = families.neighbor[begin + b];
+            halves.push_back({{{std::min(node, other), std::max(node, other)}},
+                              0.5 * families.weight[p] * (forces[b] * eta[b])});
+          }
+      }
+    std::vector<Half> all;
+    for (const auto &part :
+         dealii::Utilities::MPI::all_gather(communicator, halves))
+      all.insert(all.end(), part.begin(), part.end());
+    merge(all);
+    std::vector<BondEnergy> result;
+    result.reserve(all.size());
+    for (const auto &half : all)
+      result.push_back({half.first, half.second});
+    return result;
+  }
+
+#define PERIMORPH_INSTANTIATE(dim)                         \
+  template std::vector<BondEnergy> bond_energies<dim>(     \
+    const Mesh::NodalMesh<dim> &,                          \
+    const Peridynamics::FamilySet<dim> &,                  \
+    const typename Fem::ElasticCells<dim>::MaterialList &, \
+    const std::vector<dealii::Tensor<1, dim>> &,           \
+    MPI_Comm);
+
+  PERIMORPH_INSTANTIATE(2)
+  PERIMORPH_INSTANTIATE(3)
+#undef PERIMORPH_INSTANTIATE
+} // namespace Perimorph::Coupling

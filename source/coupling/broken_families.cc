@@ -1,0 +1,183 @@
+#include <perimorph/coupling/broken_families.h>
+#include <perimorph/coupling/family_rows.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <Eigen/Dense>
+
+#include <numeric>
+
+namespace Perimorph::Coupling
+{
+  namespace
+  {
+    constexpr double largest_condition = 1e8;
+
+    template <int dim>
+    bool
+    is_regular(const dealii::Tensor<2, dim> &K)
+    {
+      Eigen::Matrix<double, dim, dim> matrix;
+      for (int a = 0; a < dim; ++a)
+        for (int b = 0; b < dim; ++b)
+          matrix(a, b) = K[a][b];
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, dim, dim>>
+                 eigen(matrix, Eigen::EigenvaluesOnly);
+      const auto values = eigen.eigenvalues();
+      return values[dim - 1] > 0. &&
+             values[0] * largest_condition > values[dim - 1];
+    }
+
+    unsigned int
+    root(std::vector<unsigned int> &parent, unsigned int k)
+    {
+      while (parent[k] != k)
+        k = parent[k] = parent[parent[k]];
+      return k;
+    }
+
+    /// The smaller root stays one.
+    void
+    join(std::vector<unsigned int> &parent, unsigned int a, unsigned int b)
+    {
+      a                      = root(parent, a);
+      b                      = root(parent, b);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  } // namespace
+
+  template <int dim>
+  Peridynamics::FamilySet<dim>
+  break_bonds(const Mesh::NodalMesh<dim>         &mesh,
+              const std::vector<double>          &horizon,
+              const FamilyParameters             &parameters,
+              const Bonds::BrokenBonds           &broken,
+              const Peridynamics::FamilySet<dim> &families,
+              std::size_t                        &n_isolated)
+  {
+    n_isolated = 0;
+    Peridynamics::FamilySet<dim> set;
+    for (std::size_t p = 0; p < families.n_particles(); ++p)
+      {
+        const unsigned int node  = families.node[p];
+        const auto         begin = set.neighbor.size();
+        for (std::size_t b = families.offsets[p]; b < families.offsets[p + 1];
+             ++b)
+          if (!broken.contains(node, families.neighbor[b]))
+            {
+              set.neighbor.push_back(families.neighbor[b]);
+              set.gradient_weight.push_back(families.gradient_weight[b]);
+              set.bond_weight.push_back(families.bond_weight[b]);
+            }
+        const bool is_whole = set.neighbor.size() - begin ==
+                              families.offsets[p + 1] - families.offsets[p];
+        const Bonds::ParticleSeed particle{node, families.material[p]};
+        if (is_whole)
+          {
+            set.node.push_back(node);
+            set.material.push_back(particle.material);
+            set.weight.push_back(families.weight[p]);
+            set.stabilization.push_back(families.stabilization[p]);
+            set.offsets.push_back(set.neighbor.size());
+            continue;
+          }
+        // The weights of the bending scale are those of another family.
+        dealii::Tensor<2, dim> K, rest;
+        for (int d = 0; d < dim; ++d)
+          rest[d][d] = 1.;
+        for (std::size_t b = begin; b < set.neighbor.size(); ++b)
+          {
+            set.bond_weight[b] = bond_weight(mesh,
+                                             node,
+                                             set.neighbor[b],
+                                             horizon[node],
+                                             parameters.influence);
+            const dealii::Tensor<1, dim> xi =
+              mesh.nodes[set.neighbor[b]] - mesh.nodes[node];
+            K += set.bond_weight[b] * outer_product(xi, xi);
+            rest -= outer_product(set.gradient_weight[b], xi);
+          }
+        if (!is_regular(K))
+          {
+            ++n_isolated;
+            set.neighbor.resize(begin);
+            set.gradient_weight.resize(begin);
+            set.bond_weight.resize(begin);
+            continue;
+          }
+        const auto inverse = invert(K);
+        for (std::size_t b = begin; b < set.neighbor.size(); ++b)
+          set.gradient_weight[b] +=
+            set.bond_weight[b] *
+            (rest *
+             (inverse * (mesh.nodes[set.neighbor[b]] - mesh.nodes[node])));
+        close_row(particle, families.weight[p], parameters, inverse, set);
+      }
+    return set;
+  }
+
+  template <int dim>
+  std::vector<unsigned int>
+  find_parts(const Mesh::NodalMesh<dim>         &mesh,
+             const std::vector<double>          &alpha,
+             const Peridynamics::FamilySet<dim> &families,
+             const MPI_Comm                      communicator)
+  {
+    std::vector<unsigned int> parent(mesh.n_nodes());
+    std::iota(parent.begin(), parent.end(), 0u);
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      {
+        bool has_element = false;
+        for (const unsigned int n : mesh.cells[c])
+          has_element = has_element || alpha[n] < 1.;
+        if (has_element)
+          for (const unsigned int n : mesh.cells[c])
+            join(parent, mesh.cells[c][0], n);
+      }
+    for (std::size_t p = 0; p < families.n_particles(); ++p)
+      for (std::size_t b = families.offsets[p]; b < families.offsets[p + 1];
+           ++b)
+        join(parent, families.node[p], families.neighbor[b]);
+    // Every rank knows its own families: the smallest label wins until nothing
+    // changes.
+    for (bool changes = true; changes;)
+      {
+        std::vector<unsigned int> label(parent.size());
+        for (unsigned int n = 0; n < label.size(); ++n)
+          label[n] = root(parent, n);
+        auto common = label;
+        dealii::Utilities::MPI::min(label, communicator, common);
+        for (unsigned int n = 0; n < label.size(); ++n)
+          join(parent, common[n], n);
+        changes = dealii::Utilities::MPI::max(common != label ? 1u : 0u,
+                                              communicator) > 0;
+      }
+    std::vector<unsigned int> number(parent.size()), part(parent.size());
+    unsigned int              n_parts = 0;
+    for (unsigned int n = 0; n < part.size(); ++n)
+      {
+        if (parent[n] == n)
+          number[n] = n_parts++;
+        part[n] = number[root(parent, n)];
+      }
+    return part;
+  }
+
+#define PERIMORPH_INSTANTIATE(dim)                        \
+  template Peridynamics::FamilySet<dim> break_bonds<dim>( \
+    const Mesh::NodalMesh<dim> &,                         \
+    const std::vector<double> &,                          \
+    const FamilyParameters &,                             \
+    const Bonds::BrokenBonds &,                           \
+    const Peridynamics::FamilySet<dim> &,                 \
+    std::size_t &);                                       \
+  template std::vector<unsigned int> find_parts<dim>(     \
+    const Mesh::NodalMesh<dim> &,                         \
+    const std::vector<double> &,                          \
+    const Peridynamics::FamilySet<dim> &,                 \
+    MPI_Comm);
+
+  PERIMORPH_INSTANTIATE(2)
+  PERIMORPH_INSTANTIATE(3)
+#undef PERIMORPH_INSTANTIATE
+} // namespace Perimorph::Coupling
