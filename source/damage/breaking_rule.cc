@@ -1,5 +1,4 @@
 #include <perimorph/damage/breaking_rule.h>
-#include <perimorph/damage/thresholds.h>
 
 #include <cmath>
 #include <limits>
@@ -41,9 +40,12 @@ namespace Perimorph::Damage
     class CriticalEnergy : public BreakingRule
     {
     public:
-      CriticalEnergy(const double fracture_energy, const double calibration)
+      CriticalEnergy(const double      fracture_energy,
+                     const double      calibration,
+                     const FamilyShape shape)
         : fracture_energy(fracture_energy)
         , calibration(calibration)
+        , shape(shape)
       {}
 
       double
@@ -52,15 +54,17 @@ namespace Perimorph::Damage
         // Halves of different sign may add up to less than nothing.
         if (!(bond.extension > 0.) || !(bond.energy > 0.))
           return never;
-        const double kappa =
-          calibration > 0. ? calibration : lattice_trapping(bond.horizon_ratio);
+        const double kappa = calibration > 0.
+                               ? calibration
+                               : lattice_trapping(bond.horizon_ratio, shape);
         return std::sqrt(
           critical_energy_density<dim>(fracture_energy, bond.horizon) / kappa *
           bond.volume_product / bond.energy);
       }
 
     private:
-      const double fracture_energy, calibration;
+      const double      fracture_energy, calibration;
+      const FamilyShape shape;
     };
   } // namespace
 
@@ -77,17 +81,28 @@ namespace Perimorph::Damage
   make_breaking_rule(const Criterion             criterion,
                      const double                fracture_energy,
                      const double                calibration,
-                     const Materials::PlaneState state)
+                     const Materials::PlaneState state,
+                     const FamilyShape           shape)
   {
     if (criterion == Criterion::critical_stretch)
       return std::make_unique<CriticalStretch>(fracture_energy,
                                                calibration,
                                                state);
-    return std::make_unique<CriticalEnergy<dim>>(fracture_energy, calibration);
+    return std::make_unique<CriticalEnergy<dim>>(fracture_energy,
+                                                 calibration,
+                                                 shape);
   }
 
   template std::unique_ptr<BreakingRule>
-  make_breaking_rule<2>(Criterion, double, double, Materials::PlaneState);
+  make_breaking_rule<2>(Criterion,
+                        double,
+                        double,
+                        Materials::PlaneState,
+                        FamilyShape);
   template std::unique_ptr<BreakingRule>
-  make_breaking_rule<3>(Criterion, double, double, Materials::PlaneState);
+  make_breaking_rule<3>(Criterion,
+                        double,
+                        double,
+                        Materials::PlaneState,
+                        FamilyShape);
 } // namespace Perimorph::Damage

@@ -40,9 +40,10 @@ namespace Perimorph::Damage
   }
 
   double
-  lattice_trapping(const double horizon_ratio)
+  lattice_trapping(const double horizon_ratio, const FamilyShape shape)
   {
-    constexpr double at_2 = 1.75, at_3 = 1.26;
+    const double at_2 = shape == FamilyShape::ball ? 1.75 : 3.04;
+    const double at_3 = shape == FamilyShape::ball ? 1.26 : 2.;
     return at_2 + (at_3 - at_2) * std::clamp(horizon_ratio - 2., 0., 1.);
   }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <perimorph/materials/plane_state.h>
+#include <perimorph/damage/thresholds.h>
 
 #include <memory>
 #include <string>
@@ -50,5 +50,6 @@ namespace Perimorph::Damage
   make_breaking_rule(Criterion             criterion,
                      double                fracture_energy,
                      double                calibration,
-                     Materials::PlaneState state);
+                     Materials::PlaneState state,
+                     FamilyShape           shape);
 } // namespace Perimorph::Damage

@@ -31,7 +31,8 @@ namespace Perimorph::Damage
       return make_breaking_rule<2>(criterion,
                                    G_c,
                                    calibration,
-                                   Materials::PlaneState::plane_stress);
+                                   Materials::PlaneState::plane_stress,
+                                   FamilyShape::ball);
     }
   } // namespace
 

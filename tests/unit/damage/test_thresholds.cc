@@ -125,10 +125,11 @@ namespace Perimorph::Damage
 
   TEST(Thresholds, trapping_between_and_beyond_the_measurements)
   {
-    EXPECT_DOUBLE_EQ(lattice_trapping(2.), 1.75);
-    EXPECT_DOUBLE_EQ(lattice_trapping(3.), 1.26);
-    EXPECT_NEAR(lattice_trapping(2.5), 1.505, 1e-12);
-    EXPECT_DOUBLE_EQ(lattice_trapping(1.5), 1.75);
-    EXPECT_DOUBLE_EQ(lattice_trapping(4.), 1.26);
+    EXPECT_DOUBLE_EQ(lattice_trapping(2., FamilyShape::ball), 1.75);
+    EXPECT_DOUBLE_EQ(lattice_trapping(3., FamilyShape::ball), 1.26);
+    EXPECT_NEAR(lattice_trapping(2.5, FamilyShape::ball), 1.505, 1e-12);
+    EXPECT_DOUBLE_EQ(lattice_trapping(1.5, FamilyShape::ball), 1.75);
+    EXPECT_DOUBLE_EQ(lattice_trapping(4., FamilyShape::cells), 2.);
+    EXPECT_NEAR(lattice_trapping(2.5, FamilyShape::cells), 2.52, 1e-12);
   }
 } // namespace Perimorph::Damage
