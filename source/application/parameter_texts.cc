@@ -174,8 +174,32 @@ namespace Perimorph::Application
       "growth",
       crack_growth,
       "none; segments: cracks grow by straight advances where the energy that "
-      "an advance releases is the fracture energy (2D, linear or not).",
-      choice({"none", "segments"}));
+      "an advance releases is the fracture energy (2D, linear or not). bonds: "
+      "bonds of the core break one by one where 'criterion' says; cracks "
+      "start, "
+      "branch and meet freely, but follow the rows of regular meshes (linear "
+      "problems, correspondence model).",
+      choice({"none", "segments", "bonds"}));
+    prm.add_parameter(
+      "criterion",
+      criterion,
+      "Of growth = bonds: where a bond breaks. critical energy: its energy "
+      "over "
+      "the volumes of its ends is that of a crack of 'fracture energy'. "
+      "critical stretch: its stretch is; load and path depend more on the "
+      "mesh. automatic: critical energy.",
+      choice(automatic_or(Damage::criterion_names())));
+    prm.add_parameter(
+      "energy calibration",
+      energy_calibration,
+      "Of growth = bonds: kappa, by which the energy of a bond at break is "
+      "divided so that cracks grow at the fracture energy: measured with a "
+      "known "
+      "crack and kappa = 1 as its energy release rate at growth over G_c. 0: "
+      "measured values for horizon ratios of 2 to 3 in plane stress (3.04 to "
+      "2; "
+      "coupling = energy blending: 1.75 to 1.26); critical stretch: 1.",
+      Double(0.));
     prm.add_parameter("fracture energy",
                       fracture_energy,
                       "G_c [stress * length]; energy per area of crack.",
@@ -195,7 +219,8 @@ namespace Perimorph::Application
       choice({"load steps", "events"}));
     prm.add_parameter("maximum advances",
                       maximum_advances,
-                      "The run stops after so many.",
+                      "The run stops after so many; with growth = bonds, after "
+                      "so many events.",
                       Integer(1));
     prm.leave_subsection();
 

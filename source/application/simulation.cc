@@ -26,7 +26,8 @@ namespace Perimorph::Application
       static const std::regex ours(
         "results\\.json|newton\\.csv|load_steps\\.csv|quantities\\.csv|"
         "probe_.*\\.csv|checkpoint|checkpoint\\.part|"
-        "crack_growth\\.csv|(solution|particles|cracks)(_[0-9]+\\.vtu|\\.pvd)");
+        "crack_growth\\.csv|broken_bonds\\.csv|"
+        "(solution|particles|cracks)(_[0-9]+\\.vtu|\\.pvd)");
       std::error_code                    ignored;
       std::vector<std::filesystem::path> old;
       for (const auto &entry :
@@ -154,7 +155,8 @@ namespace Perimorph::Application
         parameters.coupling,
         report,
         supports->coupled_nodes(),
-        cracks);
+        cracks,
+        broken);
     }
     method.equilibrium = std::make_unique<Solvers::Equilibrium<dim>>(
       *mesh,
@@ -203,7 +205,8 @@ namespace Perimorph::Application
       }
     result->set("counts", "newton_iterations", 0);
     result->set("counts", "linear_iterations", 0);
-    result->set("skipped", "damage_pass", "no bond can break");
+    if (!parameters.growth.bonds)
+      result->set("skipped", "damage_pass", "no bond can break");
     result->set("skipped",
                 "cells_without_element_work",
                 nodal.n_cells() - counts.active_cells);

@@ -64,6 +64,14 @@ namespace Perimorph::Application
                               const Method               &start)
   {
     auto method = make_method(other_region, other_cracks);
+    continue_from(start, method);
+    return method;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::continue_from(const Method &start, Method &method)
+  {
     for (unsigned int n = 0; n < method.displacement.locally_owned_size(); ++n)
       method.displacement.local_element(n) =
         start.displacement.local_element(n);
@@ -75,7 +83,49 @@ namespace Perimorph::Application
     result->add_count("linear_iterations", record.linear_iterations);
     if (!record.converged)
       throw Base::SolveError(record.reason);
-    return method;
+  }
+
+  template <int dim>
+  double
+  Simulation<dim>::grow_core(Method                       &method,
+                             const Mesh::RegionParameters &wider)
+  {
+    auto next = make_region_map(*mesh, wider);
+    auto alpha = next.alpha;
+    for (unsigned int n = 0; n < alpha.size(); ++n)
+      alpha[n] = std::max(alpha[n], method.region.alpha[n]);
+    if (alpha == method.region.alpha)
+      return 0.;
+    next.set_alpha(alpha);
+    const double before   = potential_energy(method);
+    method                = solve_with(cracks, next, method);
+    const double switched = potential_energy(method) - before;
+    switched_energy += switched;
+    count_work(gather(method));
+    return switched;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::scale_to(const double    time,
+                            Method         &method,
+                            Step           &step,
+                            const OnNewton &on_newton)
+  {
+    if (method.time != 0.)
+      method.displacement *= time / method.time;
+    const auto record =
+      method.equilibrium->solve(time, method.displacement, [&](const auto &i) {
+        on_newton(step, i);
+      });
+    if (!record.converged)
+      throw Base::SolveError("at load factor " + std::to_string(time) + ": " +
+                             record.reason);
+    method.time            = time;
+    step.time              = time;
+    step.n_increments      = 1;
+    step.newton_iterations = record.n_iterations();
+    step.relative_residual = record.residuals.back();
   }
 
   template <int dim>
@@ -122,22 +172,8 @@ namespace Perimorph::Application
             fans.push_back(fan);
           }
         // The core has room before bonds there are cut; it does not shrink.
-        double switched = 0.;
-        auto   next     = make_region_map(*mesh, wider);
-        auto   alpha    = next.alpha;
-        for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
-          alpha[n] = std::max(alpha[n], method.region.alpha[n]);
-        if (alpha != method.region.alpha)
-          {
-            next.set_alpha(alpha);
-            const double before = potential_energy(method);
-            method              = solve_with(cracks, next, method);
-            switched            = potential_energy(method) - before;
-            switched_energy += switched;
-            count_work(gather(method));
-          }
-
-        const double           start = potential_energy(method);
+        const double           switched = grow_core(method, wider);
+        const double           start    = potential_energy(method);
         std::optional<Advance> best;
         const auto released = [&](const Bonds::CrackFacet<2> &facet) {
           auto longer = cracks;
@@ -265,21 +301,7 @@ namespace Perimorph::Application
     const double G_c      = parameters.growth.fracture_energy;
     Step         step     = progress.step;
     const auto   solve_at = [&](const double time) {
-      // Linear: the solution of one load scaled is that of another.
-      if (method.time != 0.)
-        method.displacement *= time / method.time;
-      const auto record =
-        method.equilibrium->solve(time,
-                                  method.displacement,
-                                  [&](const auto &i) { on_newton(step, i); });
-      if (!record.converged)
-        throw Base::SolveError("at load factor " + std::to_string(time) + ": " +
-                               record.reason);
-      method.time            = time;
-      step.time              = time;
-      step.n_increments      = 1;
-      step.newton_iterations = record.n_iterations();
-      step.relative_residual = record.residuals.back();
+      scale_to(time, method, step, on_newton);
     };
     // Unloaded until the first load factor is known: what happens to the core
     // before does no work.
@@ -339,23 +361,30 @@ namespace Perimorph::Application
     return false;
   }
 
-#define PERIMORPH_INSTANTIATE(dim)                                         \
-  template double Simulation<dim>::potential_energy(const Method &) const; \
-  template Simulation<dim>::Method Simulation<dim>::solve_with(            \
-    const Bonds::CrackSet<dim> &,                                          \
-    const Mesh::RegionMap &,                                               \
-    const Method &);                                                       \
-  template std::optional<Simulation<dim>::Advance>                         \
-                Simulation<dim>::best_advance(Method &, const OnNewton &); \
-  template void Simulation<dim>::write_advance(const Advance &,            \
-                                               const Step &,               \
-                                               double);                    \
-  template void Simulation<dim>::grow_cracks(Method &,                     \
-                                             Step &,                       \
-                                             const OnStep &,               \
-                                             const OnNewton &);            \
-  template bool Simulation<dim>::follow_growth_events(Method &,            \
-                                                      const OnStep &,      \
+#define PERIMORPH_INSTANTIATE(dim)                                            \
+  template double Simulation<dim>::potential_energy(const Method &) const;    \
+  template Simulation<dim>::Method Simulation<dim>::solve_with(               \
+    const Bonds::CrackSet<dim> &,                                             \
+    const Mesh::RegionMap &,                                                  \
+    const Method &);                                                          \
+  template void   Simulation<dim>::continue_from(const Method &, Method &);   \
+  template double Simulation<dim>::grow_core(Method &,                        \
+                                             const Mesh::RegionParameters &); \
+  template void   Simulation<dim>::scale_to(double,                           \
+                                          Method &,                         \
+                                          Step &,                           \
+                                          const OnNewton &);                \
+  template std::optional<Simulation<dim>::Advance>                            \
+                Simulation<dim>::best_advance(Method &, const OnNewton &);    \
+  template void Simulation<dim>::write_advance(const Advance &,               \
+                                               const Step &,                  \
+                                               double);                       \
+  template void Simulation<dim>::grow_cracks(Method &,                        \
+                                             Step &,                          \
+                                             const OnStep &,                  \
+                                             const OnNewton &);               \
+  template bool Simulation<dim>::follow_growth_events(Method &,               \
+                                                      const OnStep &,         \
                                                       const OnNewton &);
 
   PERIMORPH_INSTANTIATE(2)

@@ -22,6 +22,7 @@ namespace Perimorph::Application
         true,
         false};
     growth.active           = texts.crack_growth != "none";
+    growth.bonds            = texts.crack_growth == "bonds";
     growth.events           = growth.active && texts.growth_control == "events";
     growth.fracture_energy  = texts.fracture_energy;
     growth.maximum_advances = texts.maximum_advances;
@@ -47,12 +48,14 @@ namespace Perimorph::Application
                            "consistent, energy blending");
     if (!growth.active)
       return;
-    if (dim == 3)
+    if (growth.bonds)
+      check_bond_breaking(texts, errors);
+    if (dim == 3 && !growth.bonds)
       errors.add_parameter("Cracks / growth",
                            "'" + texts.crack_growth + "' in 3D",
                            "none",
                            "Cracks grow in 2D only.");
-    if (pre_cracks.empty() && texts.pre_cracks.empty())
+    if (!growth.bonds && pre_cracks.empty() && texts.pre_cracks.empty())
       errors.add_parameter("Cracks / growth",
                            "'" + texts.crack_growth + "' without a crack",
                            "at least one crack in 'Cracks / pre-cracks'");
@@ -64,7 +67,13 @@ namespace Perimorph::Application
       errors.add_parameter("Cracks / advance length",
                            "'" + texts.advance_length + "'",
                            "a length > 0");
-    if (coupling.scheme != Coupling::Scheme::consistent)
+    if (pre_cracks.empty() && region.mode == Mesh::Mode::finite_elements)
+      errors.add_parameter("Cracks / growth",
+                           "'" + texts.crack_growth +
+                             "' with Mode = finite elements",
+                           "coupled, peridynamics",
+                           "Elements cannot be cut.");
+    if (coupling.scheme != Coupling::Scheme::consistent && !growth.bonds)
       errors.add_parameter("Cracks / growth",
                            "'" + texts.crack_growth + "' with coupling '" +
                              texts.coupling + "'",
@@ -76,10 +85,48 @@ namespace Perimorph::Application
                            "Loads can be scaled in linear problems only.");
   }
 
+  template <int dim>
+  void
+  SimulationParameters<dim>::check_bond_breaking(
+    const ParameterTexts      &texts,
+    Base::InputErrorCollector &errors)
+  {
+    growth.calibration = texts.energy_calibration;
+    growth.criterion   = texts.criterion == "critical stretch"
+                           ? Damage::Criterion::critical_stretch
+                           : Damage::Criterion::critical_energy;
+    if (coupling.model == Coupling::Model::bond_based &&
+        texts.criterion == "critical energy")
+      errors.add_parameter("Cracks / criterion",
+                           "'critical energy' with model 'bond based'",
+                           "critical stretch",
+                           "Bonds of this model break by their stretch.");
+    if (coupling.model == Coupling::Model::bond_based)
+      errors.add_parameter("Cracks / growth",
+                           "'bonds' with model 'bond based'",
+                           "model = correspondence");
+    if (coupling.scheme == Coupling::Scheme::force_blending)
+      errors.add_parameter("Cracks / growth",
+                           "'bonds' with coupling 'force blending'",
+                           "coupling = consistent, energy blending",
+                           "Forces blended have no energy.");
+    if (finite_strain() || texts.control != "load")
+      errors.add_parameter("Cracks / growth",
+                           "'bonds' in a nonlinear problem",
+                           "law = linear elastic, control = load",
+                           "Or 'growth = segments' with load steps.");
+  }
+
   template void
   SimulationParameters<2>::read_cracks(const ParameterTexts &,
                                        Base::InputErrorCollector &);
   template void
   SimulationParameters<3>::read_cracks(const ParameterTexts &,
                                        Base::InputErrorCollector &);
+  template void
+  SimulationParameters<2>::check_bond_breaking(const ParameterTexts &,
+                                               Base::InputErrorCollector &);
+  template void
+  SimulationParameters<3>::check_bond_breaking(const ParameterTexts &,
+                                               Base::InputErrorCollector &);
 } // namespace Perimorph::Application

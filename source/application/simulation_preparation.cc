@@ -49,6 +49,18 @@ namespace Perimorph::Application
       errors.collect([&]() { hold_rigid_motion(); });
     errors.throw_if_any();
     warn_if_nothing_happens();
+    if (parameters.growth.bonds)
+      {
+        breaking_rule = Damage::make_breaking_rule<dim>(
+          parameters.growth.criterion,
+          parameters.growth.fracture_energy,
+          parameters.growth.calibration,
+          parameters.state,
+          parameters.coupling.scheme == Coupling::Scheme::consistent
+            ? Damage::FamilyShape::cells
+            : Damage::FamilyShape::ball);
+        warn_of_bond_criteria();
+      }
     auto ratios = std::make_pair(parameters.material.poissons_ratio,
                                  parameters.material.poissons_ratio);
     for (const auto &entry : parameters.volume_materials)

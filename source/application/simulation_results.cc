@@ -101,15 +101,20 @@ namespace Perimorph::Application
     nodal_fields.add("alpha", method.region.alpha);
     nodal_fields.add("horizon", method.region.horizon);
     std::vector<double> damage(mesh->nodal().n_nodes(), 0.);
-    if (!cracks.empty() && method.region.n_core > 0)
+    if ((!cracks.empty() || parameters.growth.bonds) &&
+        method.region.n_core > 0)
       {
         std::size_t n_hidden;
         damage = Bonds::crack_damage(mesh->nodal(),
                                      method.region.alpha,
                                      method.region.horizon,
                                      cracks,
-                                     n_hidden);
+                                     n_hidden,
+                                     broken);
         nodal_fields.add("damage", damage);
+      }
+    if (!cracks.empty() && method.region.n_core > 0)
+      {
         std::vector<std::array<dealii::Point<dim>, dim>> pieces;
         std::vector<double>                              numbers, steps;
         for (const auto &facet : cracks.facets())
@@ -222,8 +227,9 @@ namespace Perimorph::Application
     auto       list = post_processing->evaluate(state);
     const bool own  = method.region.n_core + method.region.n_blending > 0 ||
                      parameters.region.mode == Mesh::Mode::finite_elements;
-    // The companion with finite elements has no cracks.
-    if (own)
+    // The companion with finite elements has no cracks; those made of broken
+    // bonds have no tips.
+    if (own && !parameters.growth.bonds)
       for (const auto &quantity : post_processing->crack_quantities(
              state,
              method.region,

@@ -41,7 +41,9 @@ namespace Perimorph::Application
     // The companion with finite elements does not grow cracks.
     const bool grows = method.region.n_core > 0;
     if (parameters.growth.events && grows)
-      return follow_growth_events(method, on_step, on_newton);
+      return parameters.growth.bonds
+               ? follow_bond_events(method, on_step, on_newton)
+               : follow_growth_events(method, on_step, on_newton);
     if (parameters.arc_length)
       return follow_arc(method, on_step, on_newton);
     const auto times        = parameters.times();
@@ -94,11 +96,16 @@ namespace Perimorph::Application
           stepping.advance(time, end, attempt, on_cut, on_intermediate);
         if (reached == end)
           {
-            step.number += n_advances;
+            step.number += n_advances + n_events;
             progress.number   = number;
             progress.fraction = stepping.next_fraction();
             on_step(step);
-            if (parameters.growth.active && grows)
+            if (parameters.growth.bonds && grows)
+              {
+                if (!break_overloaded_bonds(method, step, on_step))
+                  return true;
+              }
+            else if (parameters.growth.active && grows)
               grow_cracks(method, step, on_step, on_newton);
             time = end;
             continue;

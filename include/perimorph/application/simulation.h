@@ -2,6 +2,8 @@
 
 #include <perimorph/application/post_processing.h>
 #include <perimorph/base/timing.h>
+#include <perimorph/bonds/broken_bonds.h>
+#include <perimorph/damage/breaking_rule.h>
 #include <perimorph/fem/rigid_motion.h>
 #include <perimorph/fracture/crack_tips.h>
 #include <perimorph/output/checkpoint.h>
@@ -178,11 +180,64 @@ namespace Perimorph::Application
     /// the method by one whose peridynamic core has room for it.
     std::optional<Advance>
     best_advance(Method &method, const OnNewton &on_newton);
+    /// Follows the loads to the load of each event at which bonds break;
+    /// on_step gets the states before and after each.
+    /// @return  false if the largest number of events was reached
+    bool
+    follow_bond_events(Method         &method,
+                       const OnStep   &on_step,
+                       const OnNewton &on_newton);
+    /// The same events at the loads of the state of a method, while bonds break
+    /// there; on_step gets the state after each.
+    /// @return  false if the body falls apart
+    bool
+    break_overloaded_bonds(Method &method, Step &step, const OnStep &on_step);
+    /// A bond and the factor of the loads at which it breaks.
+    struct BondLoad
+    {
+      std::array<unsigned int, 2> nodes;
+      double                      factor;
+      double                      energy;
+      bool                        in_core; ///< may break
+    };
+    std::vector<BondLoad>
+    bond_loads(const Method &method) const;
+    /// The bonds that break first, all within a tolerance of the lowest load;
+    /// none if that is above the limit or no bond extends. Replaces the method
+    /// by one with a larger core if they are not in the core.
+    /// @param limit  largest factor of the loads
+    std::vector<BondLoad>
+    next_to_break(Method &method, double limit);
+    /// Breaks bonds at fixed loads and accounts for the energies.
+    /// @return  false if the body falls apart
+    bool
+    break_bonds(Method                      &method,
+                const std::vector<BondLoad> &bonds,
+                const Step                  &step);
+    /// Large parts of the body and parts that loads act on.
+    unsigned int
+    n_parts(const Method &method, const State<dim> &loaded) const;
+    void
+    warn_of_bond_criteria() const;
+    /// Replaces a method by one whose core has room for more features; the core
+    /// does not shrink.
+    /// @return  change of the potential energy, counted as switched_energy
+    double
+    grow_core(Method &method, const Mesh::RegionParameters &wider);
+    /// Solves a linear problem at another time.
+    void
+    scale_to(double          time,
+             Method         &method,
+             Step           &step,
+             const OnNewton &on_newton);
     /// Solves at the time of a method with other cracks.
     Method
     solve_with(const Bonds::CrackSet<dim> &other_cracks,
                const Mesh::RegionMap      &region,
                const Method               &start);
+    /// Solves at the time of another state, from its displacement.
+    void
+    continue_from(const Method &start, Method &method);
     double
     potential_energy(const Method &method) const;
     /// Adds the work done between the last state and this one.
@@ -260,6 +315,13 @@ namespace Perimorph::Application
     std::set<unsigned int> grown;        ///< facets that tips start from
     double released_energy = 0., dissipated_energy = 0., grown_length = 0.;
     double switched_energy = 0.; ///< change by the growth of the core
+
+    // Breaking of bonds.
+    Bonds::BrokenBonds                    broken;
+    std::unique_ptr<Damage::BreakingRule> breaking_rule;
+    std::unique_ptr<Output::CsvWriter>    broken_table;
+    unsigned int                          n_events       = 0;
+    unsigned int                          parts_at_start = 1;
 
     // Work of loads and supports, by the trapezoidal rule between states.
     State<dim> last_state;

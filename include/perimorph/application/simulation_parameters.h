@@ -2,6 +2,7 @@
 
 #include <perimorph/base/exceptions.h>
 #include <perimorph/coupling/coupled_problem.h>
+#include <perimorph/damage/breaking_rule.h>
 #include <perimorph/fem/boundary_conditions.h>
 #include <perimorph/materials/linear_elastic.h>
 #include <perimorph/mesh/region_map.h>
@@ -42,8 +43,9 @@ namespace Perimorph::Application
 
     std::string pre_cracks,
       crack_treatment = "consistent", crack_growth = "none",
-      advance_length = "1 horizons", growth_control = "load steps";
-    double       fracture_energy  = 0.;
+      advance_length = "1 horizons", growth_control = "load steps",
+      criterion                  = "automatic";
+    double       fracture_energy = 0., energy_calibration = 0.;
     unsigned int maximum_advances = 1000;
 
     std::string symmetry, displacement, mean_displacement, rigid_plate,
@@ -87,17 +89,20 @@ namespace Perimorph::Application
     std::string file;
   };
 
-  /// Everything a run needs to know, checked and typed.
-  /// Growth of cracks by segments.
+  /// Growth of cracks by segments, or bond by bond.
   struct GrowthParameters
   {
     bool               active = false;
+    bool               bonds  = false; ///< else by segments
     bool               events = false; ///< else by load steps
+    Damage::Criterion  criterion;
+    double             calibration; ///< kappa; 0: automatic
     double             fracture_energy;
     Parameters::Length advance;
     unsigned int       maximum_advances;
   };
 
+  /// Everything a run needs to know, checked and typed.
   template <int dim>
   struct SimulationParameters
   {
@@ -182,6 +187,9 @@ namespace Perimorph::Application
     check_law(Base::InputErrorCollector &errors) const;
     void
     read_cracks(const ParameterTexts &texts, Base::InputErrorCollector &errors);
+    void
+    check_bond_breaking(const ParameterTexts      &texts,
+                        Base::InputErrorCollector &errors);
 
     Parameters::Constants constants;
   };

@@ -1,0 +1,346 @@
+#include <perimorph/application/simulation.h>
+#include <perimorph/base/collective.h>
+#include <perimorph/base/log.h>
+#include <perimorph/coupling/bond_energies.h>
+#include <perimorph/coupling/broken_families.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Perimorph::Application
+{
+  namespace
+  {
+    /// Bonds that break at loads up to this much above the lowest break in one
+    /// event (numerics-damage.md, section 3).
+    constexpr double tolerance = 0.02;
+
+    constexpr double never = std::numeric_limits<double>::infinity();
+
+    /// A part of the body is more than debris above this share of its nodes.
+    constexpr double large_part = 0.05;
+
+    /// Share of the core inside the body whose nodes sit in the middle of their
+    /// neighbours, as those of a lattice do.
+    template <int dim>
+    double
+    share_on_lattice(const Mesh::NodalMesh<dim> &mesh,
+                     const Mesh::RegionMap      &region)
+    {
+      std::vector<bool> on_surface(mesh.n_nodes(), false);
+      for (const auto &face : mesh.boundary_faces)
+        for (const unsigned int n : face.nodes)
+          on_surface[n] = true;
+      unsigned int n_inside = 0, n_lattice = 0;
+      for (unsigned int n = 0; n < mesh.n_nodes(); ++n)
+        {
+          if (region.alpha[n] < 1. || on_surface[n])
+            continue;
+          ++n_inside;
+          dealii::Tensor<1, dim> sum;
+          unsigned int           n_cells = 0;
+          for (const unsigned int c : mesh.node_cells.row(n))
+            {
+              sum += mesh.cell_centroid[c] - mesh.nodes[n];
+              ++n_cells;
+            }
+          if (n_cells == (1u << dim) && sum.norm() < 1e-6 * mesh.spacing[n])
+            ++n_lattice;
+        }
+      return n_inside > 0 ? double(n_lattice) / n_inside : 0.;
+    }
+  } // namespace
+
+  template <int dim>
+  void
+  Simulation<dim>::warn_of_bond_criteria() const
+  {
+    if (share_on_lattice(mesh->nodal(), region) > 0.5)
+      log.warning("bonds break along the rows of a regular mesh; use an "
+                  "unstructured one where cracks are to find their way");
+    const double ratio = parameters.region.horizon_ratio;
+    if (parameters.growth.criterion == Damage::Criterion::critical_energy &&
+        parameters.growth.calibration == 0. &&
+        (parameters.state != Materials::PlaneState::plane_stress ||
+         parameters.coupling.gamma != 1. || ratio < 2. || ratio > 3.))
+      log.warning("the automatic 'Cracks / energy calibration' was measured in "
+                  "plane stress for horizon ratios of 2 to 3 and a "
+                  "stabilisation of 1; measure it with a known crack here");
+  }
+
+  template <int dim>
+  std::vector<typename Simulation<dim>::BondLoad>
+  Simulation<dim>::bond_loads(const Method &method) const
+  {
+    const auto &nodal = mesh->nodal();
+    const auto  state = gather(method);
+    const auto  energies =
+      Coupling::bond_energies(nodal,
+                              method.problem->correspondence_families(),
+                              materials.laws,
+                              state.displacement,
+                              communicator);
+    const auto &alpha = method.region.alpha;
+
+    // Nodes whose whole families are peridynamic: nothing else holds there what
+    // their bonds let go.
+    std::vector<bool> in_core(nodal.n_nodes(), true);
+    for (const auto &bond : energies)
+      if (alpha[bond.nodes[0]] < 1. || alpha[bond.nodes[1]] < 1.)
+        in_core[bond.nodes[0]] = in_core[bond.nodes[1]] = false;
+
+    std::vector<BondLoad> loads;
+    loads.reserve(energies.size());
+    for (const auto &bond : energies)
+      {
+        const auto [i, j] = bond.nodes;
+        const auto mean   = [&, i = i, j = j](const auto &value) {
+          return 0.5 * (value(i) + value(j));
+        };
+        const auto        xi  = nodal.nodes[j] - nodal.nodes[i];
+        const auto        eta = state.displacement[j] - state.displacement[i];
+        Damage::BondState one;
+        one.length    = xi.norm();
+        one.extension = xi * eta / one.length;
+        // Where elements carry a part, the whole bond would have more.
+        one.energy         = bond.energy / mean([&](const unsigned int n) {
+                       return std::max(alpha[n], 1e-3);
+                     });
+        one.volume_product = nodal.volume[i] * nodal.volume[j];
+        one.horizon =
+          mean([&](const unsigned int n) { return method.region.horizon[n]; });
+        one.horizon_ratio  = mean([&](const unsigned int n) {
+          return method.region.horizon[n] / nodal.spacing[n];
+        });
+        one.youngs_modulus = mean([&](const unsigned int n) {
+          const unsigned int cell = *nodal.node_cells.row(n).begin();
+          return materials.bond_constants[nodal.cell_material[cell]]
+            .youngs_modulus;
+        });
+        loads.push_back({bond.nodes,
+                         breaking_rule->load_factor(one),
+                         bond.energy,
+                         in_core[i] && in_core[j]});
+      }
+    return loads;
+  }
+
+  template <int dim>
+  std::vector<typename Simulation<dim>::BondLoad>
+  Simulation<dim>::next_to_break(Method &method, const double limit)
+  {
+    while (true)
+      {
+        std::vector<BondLoad> first;
+        const auto            loads  = bond_loads(method);
+        double                lowest = never;
+        for (const auto &bond : loads)
+          lowest = std::min(lowest, bond.factor);
+        if (!(lowest < never) || lowest > limit)
+          return {};
+        bool in_core = true;
+        for (const auto &bond : loads)
+          if (bond.factor <= std::min(limit, (1. + tolerance) * lowest))
+            {
+              first.push_back(bond);
+              in_core = in_core && bond.in_core;
+            }
+        if (in_core)
+          return first;
+
+        auto wider = parameters.region;
+        for (const auto &bond : first)
+          if (!bond.in_core)
+            {
+              Parameters::Feature feature;
+              feature.kind = Parameters::FeatureKind::segment;
+              for (const unsigned int n : bond.nodes)
+                for (int d = 0; d < dim; ++d)
+                  feature.numbers.push_back(mesh->nodal().nodes[n][d]);
+              wider.features.push_back(feature);
+            }
+        const auto before = method.region.alpha;
+        grow_core(method, wider);
+        if (before == method.region.alpha)
+          throw Base::SolveError(
+            "bonds would break where elements carry a part, and the core "
+            "cannot "
+            "grow there: use a larger 'Peridynamics / core size'");
+        log << "  the peridynamic core grows: " << method.region.n_core
+            << " nodes" << std::endl;
+      }
+  }
+
+  template <int dim>
+  unsigned int
+  Simulation<dim>::n_parts(const Method &method, const State<dim> &loaded) const
+  {
+    const auto parts =
+      Coupling::find_parts(mesh->nodal(),
+                           method.region.alpha,
+                           method.problem->correspondence_families(),
+                           communicator);
+    std::vector<unsigned int> size;
+    std::vector<bool>         is_loaded;
+    for (unsigned int n = 0; n < parts.size(); ++n)
+      {
+        size.resize(std::max<std::size_t>(size.size(), parts[n] + 1), 0);
+        is_loaded.resize(size.size(), false);
+        ++size[parts[n]];
+        if (loaded.external_force[n].norm() > 0.)
+          is_loaded[parts[n]] = true;
+      }
+    unsigned int n_large = 0;
+    for (unsigned int k = 0; k < size.size(); ++k)
+      if (is_loaded[k] || size[k] > large_part * parts.size())
+        ++n_large;
+    return n_large;
+  }
+
+  template <int dim>
+  bool
+  Simulation<dim>::break_bonds(Method                      &method,
+                               const std::vector<BondLoad> &bonds,
+                               const Step                  &step)
+  {
+    if (!broken_table)
+      {
+        std::vector<std::string> columns = {"event", "step", "load_factor"};
+        for (const std::string end : {"1", "2"})
+          for (int d = 0; d < dim; ++d)
+            columns.push_back(std::string(1, "xyz"[d]) + end);
+        columns.push_back("energy");
+        Base::collectively(communicator, [&]() {
+          broken_table = std::make_unique<Output::CsvWriter>(
+            parameters.output_folder + "/broken_bonds.csv",
+            columns,
+            log);
+        });
+        files.push_back("broken_bonds.csv");
+      }
+    const auto state = gather(method);
+    if (broken.empty())
+      parts_at_start = n_parts(method, state);
+    ++n_events;
+    double stored = 0.;
+    for (const auto &bond : bonds)
+      {
+        broken.add(bond.nodes[0], bond.nodes[1], n_events);
+        stored += bond.energy;
+        std::vector<Output::CsvCell> row = {n_events, step.number, method.time};
+        for (const unsigned int n : bond.nodes)
+          for (int d = 0; d < dim; ++d)
+            row.push_back(mesh->nodal().nodes[n][d]);
+        row.push_back(bond.energy);
+        broken_table->write_row(row);
+      }
+    auto next = make_method(method.region, cracks);
+    next.time = method.time;
+    log << "  event " << n_events << ": " << bonds.size()
+        << " bonds break at load factor " << method.time << std::endl;
+    const bool falls_apart = n_parts(next, state) > parts_at_start;
+    result->set("counts", "events", n_events);
+    result->set("counts", "bonds_broken_in_events", broken.size());
+    result->set("counts",
+                "isolated_particles",
+                next.problem->counts().isolated);
+    dissipated_energy += stored;
+    if (falls_apart && !loads->empty())
+      {
+        // Loads move a loose part without end: there is no state to solve for.
+        log << "  the body falls apart" << std::endl;
+        return false;
+      }
+    const double before = potential_energy(method);
+    continue_from(method, next);
+    method = std::move(next);
+    released_energy += before - potential_energy(method);
+    if (falls_apart)
+      log << "  the body falls apart" << std::endl;
+    return !falls_apart;
+  }
+
+  template <int dim>
+  bool
+  Simulation<dim>::follow_bond_events(Method         &method,
+                                      const OnStep   &on_step,
+                                      const OnNewton &on_newton)
+  {
+    Step step{0, 0.};
+    // Unloaded until the first load factor is known, as in
+    // follow_growth_events().
+    scale_to(parameters.end_time, method, step, on_newton);
+    counts_work = false;
+    while (n_events < parameters.growth.maximum_advances)
+      {
+        auto bonds = next_to_break(method, never);
+        if (bonds.empty())
+          {
+            log << "  no bond extends" << std::endl;
+            return true;
+          }
+        double factor = never;
+        for (const auto &bond : bonds)
+          factor = std::min(factor, bond.factor);
+        for (auto &bond : bonds)
+          bond.energy *= factor * factor;
+        if (!counts_work)
+          switched_energy = 0.;
+        counts_work = true;
+        scale_to(factor * method.time, method, step, on_newton);
+        ++step.number;
+        on_step(step);
+        const bool holds = break_bonds(method, bonds, step);
+        ++step.number;
+        on_step(step);
+        if (!holds)
+          return true;
+      }
+    log.warning("the largest number of events was reached");
+    return false;
+  }
+
+  template <int dim>
+  bool
+  Simulation<dim>::break_overloaded_bonds(Method       &method,
+                                          Step         &step,
+                                          const OnStep &on_step)
+  {
+    while (n_events < parameters.growth.maximum_advances)
+      {
+        const auto bonds = next_to_break(method, 1.);
+        if (bonds.empty())
+          return true;
+        const bool holds = break_bonds(method, bonds, step);
+        ++step.number;
+        on_step(step);
+        if (!holds)
+          return false;
+      }
+    log.warning("the largest number of events was reached");
+    return true;
+  }
+
+#define PERIMORPH_INSTANTIATE(dim)                                                  \
+  template void Simulation<dim>::warn_of_bond_criteria() const;                     \
+  template std::vector<Simulation<dim>::BondLoad> Simulation<dim>::bond_loads(      \
+    const Method &) const;                                                          \
+  template std::vector<Simulation<dim>::BondLoad>                                   \
+                        Simulation<dim>::next_to_break(Method &, double);           \
+  template unsigned int Simulation<dim>::n_parts(const Method &,                    \
+                                                 const State<dim> &) const;         \
+  template bool         Simulation<dim>::break_bonds(Method &,                      \
+                                             const std::vector<BondLoad> &, \
+                                             const Step &);                 \
+  template bool         Simulation<dim>::follow_bond_events(Method &,               \
+                                                    const OnStep &,         \
+                                                    const OnNewton &);      \
+  template bool         Simulation<dim>::break_overloaded_bonds(Method &,           \
+                                                        Step &,             \
+                                                        const OnStep &);
+
+  PERIMORPH_INSTANTIATE(2)
+  PERIMORPH_INSTANTIATE(3)
+#undef PERIMORPH_INSTANTIATE
+} // namespace Perimorph::Application
