@@ -358,6 +358,31 @@ QUANTITIES = [
 ]
 
 # Several errors of one file are reported together.
+BONDS = {"Cracks/growth": "bonds", "Cracks/fracture energy": "1"}
+BREAKING = [
+    row("bonds without a fracture energy", [
+        "'Cracks / fracture energy'", "a number > 0"],
+        {"Cracks/growth": "bonds"}),
+    row("negative fracture energy", ["'Cracks / fracture energy'", "-1"],
+        BONDS, {"Cracks/fracture energy": "-1"}),
+    row("energy criterion of bond-based bonds", [
+        "'Cracks / criterion'", "'critical energy' with model 'bond based'",
+        "critical stretch"], BONDS, BOND_BASED,
+        {"Cracks/criterion": "critical energy"}, n_errors=2),
+    row("breaking bond-based bonds", [
+        "'Cracks / growth'", "'bonds' with model 'bond based'",
+        "model = correspondence"], BONDS, BOND_BASED),
+    row("breaking bonds at finite strain", [
+        "'Cracks / growth'", "'bonds' in a nonlinear problem"], BONDS,
+        {"Material/law": "hencky"}),
+    row("breaking bonds of blended forces", [
+        "'Cracks / growth'", "'bonds' with coupling 'force blending'",
+        "energy blending"], BONDS,
+        {"Peridynamics/coupling": "force blending"}),
+    row("unknown criterion", ["'Cracks / criterion'", "'critical force'"],
+        BONDS, {"Cracks/criterion": "critical force"}),
+]
+
 PARAMETER_ERRORS = {
     "Mode": "couplet", "Material/Young's modulus": "-1",
     "Peridynamics/horizon ratio": "two", "Load steps/end time": "0",

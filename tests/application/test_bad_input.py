@@ -17,6 +17,7 @@ TABLES = {
     "regions": bad_input_body.REGIONS,
     "conditions": bad_input_body.CONDITIONS,
     "quantities": bad_input_body.QUANTITIES,
+    "breaking": bad_input_body.BREAKING,
 }
 # Rows that are also run on several ranks: one for each place in the program
 # that finds errors.
