@@ -303,6 +303,41 @@ namespace Perimorph::Application
     return facets;
   }
 
+  template <int dim>
+  void
+  store_broken_bonds(const Mesh::DistributedMesh<dim> &mesh,
+                     const Bonds::BrokenBonds         &broken,
+                     Output::Checkpoint               &checkpoint)
+  {
+    const auto               &node_of_point = mesh.node_of_file_point();
+    std::vector<unsigned int> point_of_node(node_of_point.size());
+    for (unsigned int point = 0; point < node_of_point.size(); ++point)
+      point_of_node[node_of_point[point]] = point;
+    auto &numbers = checkpoint.arrays["broken bonds"];
+    numbers.clear();
+    for (const auto &bond : broken.list())
+      {
+        for (const unsigned int node : bond.nodes)
+          numbers.push_back(point_of_node[node]);
+        numbers.push_back(bond.event);
+      }
+  }
+
+  template <int dim>
+  Bonds::BrokenBonds
+  stored_broken_bonds(const Mesh::DistributedMesh<dim> &mesh,
+                      const Output::Checkpoint         &checkpoint)
+  {
+    const auto        &node_of_point = mesh.node_of_file_point();
+    const auto        &numbers       = checkpoint.arrays.at("broken bonds");
+    Bonds::BrokenBonds broken;
+    for (std::size_t k = 0; k + 2 < numbers.size(); k += 3)
+      broken.add(node_of_point[static_cast<unsigned int>(numbers[k])],
+                 node_of_point[static_cast<unsigned int>(numbers[k + 1])],
+                 static_cast<unsigned int>(numbers[k + 2]));
+    return broken;
+  }
+
 #define PERIMORPH_INSTANTIATE(dim)                                              \
   template void                store_mesh(const Mesh::DistributedMesh<dim> &,   \
                                           Output::Checkpoint &);                \
@@ -325,6 +360,12 @@ namespace Perimorph::Application
   template void store_advances(const Bonds::CrackSet<dim> &,                    \
                                Output::Checkpoint &);                           \
   template std::vector<Bonds::CrackFacet<dim>> stored_advances(                 \
+    const Output::Checkpoint &);                                                \
+  template void store_broken_bonds(const Mesh::DistributedMesh<dim> &,          \
+                                   const Bonds::BrokenBonds &,                  \
+                                   Output::Checkpoint &);                       \
+  template Bonds::BrokenBonds stored_broken_bonds(                              \
+    const Mesh::DistributedMesh<dim> &,                                         \
     const Output::Checkpoint &);
 
   PERIMORPH_INSTANTIATE(2)

@@ -211,13 +211,7 @@ namespace Perimorph::Application
           for (int d = 0; d < dim; ++d)
             columns.push_back(std::string(1, "xyz"[d]) + end);
         columns.push_back("energy");
-        Base::collectively(communicator, [&]() {
-          broken_table = std::make_unique<Output::CsvWriter>(
-            parameters.output_folder + "/broken_bonds.csv",
-            columns,
-            log);
-        });
-        files.push_back("broken_bonds.csv");
+        broken_table = &open_table("broken_bonds.csv", columns);
       }
     const auto state = gather(method);
     if (broken.empty())
@@ -267,11 +261,8 @@ namespace Perimorph::Application
                                       const OnStep   &on_step,
                                       const OnNewton &on_newton)
   {
-    Step step{0, 0.};
-    // Unloaded until the first load factor is known, as in
-    // follow_growth_events().
-    scale_to(parameters.end_time, method, step, on_newton);
-    counts_work = false;
+    Step step = progress.step;
+    start_events(method, step, on_newton);
     while (n_events < parameters.growth.maximum_advances)
       {
         auto bonds = next_to_break(method, never);
@@ -290,9 +281,12 @@ namespace Perimorph::Application
         counts_work = true;
         scale_to(factor * method.time, method, step, on_newton);
         ++step.number;
+        step.between = true;
         on_step(step);
+        step.between     = false;
         const bool holds = break_bonds(method, bonds, step);
         ++step.number;
+        progress.number = n_events;
         on_step(step);
         if (!holds)
           return true;

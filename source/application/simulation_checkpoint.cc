@@ -137,6 +137,8 @@ namespace Perimorph::Application
     action("linear iterations of step", progress.step.linear_iterations);
     action("residual of step", progress.step.relative_residual);
     action("advances", n_advances);
+    action("events", n_events);
+    action("parts at start", parts_at_start);
     action("released energy", released_energy);
     action("dissipated energy", dissipated_energy);
     action("crack growth", grown_length);
@@ -182,6 +184,7 @@ namespace Perimorph::Application
       if (method.region.alpha != region.alpha)
         arrays["alpha"] = in_file_order(*mesh, method.region.alpha);
       store_advances(cracks, checkpoint);
+      store_broken_bonds(*mesh, broken, checkpoint);
       checkpoint.words["warnings"] = log.warnings();
       auto sizes                   = earlier_tables;
       for (const auto &[name, table] : tables)
@@ -297,7 +300,8 @@ namespace Perimorph::Application
     const auto advances = stored_advances<dim>(*resumed);
     const auto alpha    = arrays.find("alpha");
     cracks.append(advances);
-    if (alpha != arrays.end() || !advances.empty())
+    broken = stored_broken_bonds(*mesh, *resumed);
+    if (alpha != arrays.end() || !advances.empty() || !broken.empty())
       {
         auto grown = method.region;
         if (alpha != arrays.end())

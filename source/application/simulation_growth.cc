@@ -90,7 +90,7 @@ namespace Perimorph::Application
   Simulation<dim>::grow_core(Method                       &method,
                              const Mesh::RegionParameters &wider)
   {
-    auto next = make_region_map(*mesh, wider);
+    auto next  = make_region_map(*mesh, wider);
     auto alpha = next.alpha;
     for (unsigned int n = 0; n < alpha.size(); ++n)
       alpha[n] = std::max(alpha[n], method.region.alpha[n]);
@@ -294,34 +294,53 @@ namespace Perimorph::Application
 
   template <int dim>
   bool
+  Simulation<dim>::grow_at_fixed_loads(Method         &method,
+                                       Step           &step,
+                                       const OnStep   &on_step,
+                                       const OnNewton &on_newton)
+  {
+    if (parameters.growth.bonds)
+      return break_overloaded_bonds(method, step, on_step);
+    if (parameters.growth.active)
+      grow_cracks(method, step, on_step, on_newton);
+    return true;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::start_events(Method         &method,
+                                Step           &step,
+                                const OnNewton &on_newton)
+  {
+    if (progress.number > 0)
+      return;
+    scale_to(parameters.end_time, method, step, on_newton);
+    const Fem::Vector whole(method.displacement);
+    scale_to(0.5 * parameters.end_time, method, step, on_newton);
+    Fem::Vector rest(method.displacement);
+    rest.add(-0.5, whole);
+    if (rest.l2_norm() > 1e-8 * whole.l2_norm())
+      throw Base::InputError(
+        Base::InputMessage{"parameter 'Cracks / growth control'",
+                           "'events' with loads that are not in proportion "
+                           "to t",
+                           "loads and displacements that are multiples of t",
+                           "Write P*t instead of P, or use load steps."});
+    scale_to(parameters.end_time, method, step, on_newton);
+    // Unloaded until the first load factor is known: what happens to the core
+    // before does no work.
+    counts_work = false;
+  }
+
+  template <int dim>
+  bool
   Simulation<dim>::follow_growth_events(Method         &method,
                                         const OnStep   &on_step,
                                         const OnNewton &on_newton)
   {
-    const double G_c      = parameters.growth.fracture_energy;
-    Step         step     = progress.step;
-    const auto   solve_at = [&](const double time) {
-      scale_to(time, method, step, on_newton);
-    };
-    // Unloaded until the first load factor is known: what happens to the core
-    // before does no work.
-    if (progress.number == 0)
-      {
-        solve_at(parameters.end_time);
-        const Fem::Vector whole(method.displacement);
-        solve_at(0.5 * parameters.end_time);
-        Fem::Vector rest(method.displacement);
-        rest.add(-0.5, whole);
-        if (rest.l2_norm() > 1e-8 * whole.l2_norm())
-          throw Base::InputError(Base::InputMessage{
-            "parameter 'Cracks / growth control'",
-            "'events' with loads that are not in proportion "
-            "to t",
-            "loads and displacements that are multiples of t",
-            "Write P*t instead of P, or use load steps."});
-        solve_at(parameters.end_time);
-        counts_work = false;
-      }
+    const double G_c  = parameters.growth.fracture_energy;
+    Step         step = progress.step;
+    start_events(method, step, on_newton);
     while (n_advances < parameters.growth.maximum_advances)
       {
         auto advance = best_advance(method, on_newton);
@@ -340,7 +359,7 @@ namespace Perimorph::Application
         if (!counts_work)
           switched_energy = 0.;
         counts_work = true;
-        solve_at(factor * method.time);
+        scale_to(factor * method.time, method, step, on_newton);
         ++step.number;
         step.between = true;
         on_step(step);
@@ -383,6 +402,13 @@ namespace Perimorph::Application
                                              Step &,                          \
                                              const OnStep &,                  \
                                              const OnNewton &);               \
+  template bool Simulation<dim>::grow_at_fixed_loads(Method &,                \
+                                                     Step &,                  \
+                                                     const OnStep &,          \
+                                                     const OnNewton &);       \
+  template void Simulation<dim>::start_events(Method &,                       \
+                                              Step &,                         \
+                                              const OnNewton &);              \
   template bool Simulation<dim>::follow_growth_events(Method &,               \
                                                       const OnStep &,         \
                                                       const OnNewton &);

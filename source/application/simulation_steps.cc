@@ -58,8 +58,8 @@ namespace Perimorph::Application
       {
         time      = times[progress.number - 1];
         Step step = progress.step;
-        if (parameters.growth.active && grows)
-          grow_cracks(method, step, on_step, on_newton);
+        if (grows && !grow_at_fixed_loads(method, step, on_step, on_newton))
+          return true;
       }
     for (unsigned int number = progress.number + 1; number <= times.size();
          ++number)
@@ -100,13 +100,8 @@ namespace Perimorph::Application
             progress.number   = number;
             progress.fraction = stepping.next_fraction();
             on_step(step);
-            if (parameters.growth.bonds && grows)
-              {
-                if (!break_overloaded_bonds(method, step, on_step))
-                  return true;
-              }
-            else if (parameters.growth.active && grows)
-              grow_cracks(method, step, on_step, on_newton);
+            if (grows && !grow_at_fixed_loads(method, step, on_step, on_newton))
+              return true;
             time = end;
             continue;
           }

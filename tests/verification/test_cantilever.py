@@ -35,7 +35,8 @@ def main():
                 "L = 4, d = 1, nx = %d, ny = %d" % (4 * ny, ny),
                 "Peridynamics/horizon ratio": 2. if elements else key,
                 # what the table was measured with
-                "Peridynamics/stabilization scale": "shear modulus"
+                "Peridynamics/stabilization scale": "shear modulus",
+                "Peridynamics/influence function": "gaussian"
             }
             solution = study.solve("cantilever_small_strain.prm", overrides)
             error = 100. * (solution["tip_deflection"] / -.267 - 1.)

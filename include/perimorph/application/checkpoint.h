@@ -1,5 +1,6 @@
 #pragma once
 
+#include <perimorph/bonds/broken_bonds.h>
 #include <perimorph/bonds/crack_set.h>
 #include <perimorph/mesh/distributed_mesh.h>
 #include <perimorph/output/checkpoint.h>
@@ -85,4 +86,15 @@ namespace Perimorph::Application
   template <int dim>
   std::vector<Bonds::CrackFacet<dim>>
   stored_advances(const Output::Checkpoint &checkpoint);
+
+  /// Bonds that broke one by one, with nodes as in the mesh file.
+  template <int dim>
+  void
+  store_broken_bonds(const Mesh::DistributedMesh<dim> &mesh,
+                     const Bonds::BrokenBonds         &broken,
+                     Output::Checkpoint               &checkpoint);
+  template <int dim>
+  Bonds::BrokenBonds
+  stored_broken_bonds(const Mesh::DistributedMesh<dim> &mesh,
+                      const Output::Checkpoint         &checkpoint);
 } // namespace Perimorph::Application

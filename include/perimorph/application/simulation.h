@@ -167,6 +167,18 @@ namespace Perimorph::Application
     follow_growth_events(Method         &method,
                          const OnStep   &on_step,
                          const OnNewton &on_newton);
+    /// What happens at the loads of a state before they rise further.
+    /// @return  false if the body falls apart
+    bool
+    grow_at_fixed_loads(Method         &method,
+                        Step           &step,
+                        const OnStep   &on_step,
+                        const OnNewton &on_newton);
+    /// Before the first event: the solution at the end of the loads, which
+    /// those of all events are multiples of.
+    /// @throws Base::InputError  loads that are not in proportion to t
+    void
+    start_events(Method &method, Step &step, const OnNewton &on_newton);
     /// The next advance of one tip, and what it would release.
     struct Advance
     {
@@ -319,7 +331,7 @@ namespace Perimorph::Application
     // Breaking of bonds.
     Bonds::BrokenBonds                    broken;
     std::unique_ptr<Damage::BreakingRule> breaking_rule;
-    std::unique_ptr<Output::CsvWriter>    broken_table;
+    Output::CsvWriter                    *broken_table   = nullptr;
     unsigned int                          n_events       = 0;
     unsigned int                          parts_at_start = 1;
 
