@@ -16,6 +16,11 @@ CAVITY = "Mesh/geometry parameters=n = 8, nr = 9"
 # An iterative solver stops at its tolerance: it must be below the differences
 # that are looked for.
 ITERATIVE = ["Solver/linear solver=iterative", "Solver/linear tolerance=1e-13"]
+STRIP = "Mesh/geometry parameters=L = 1.5, d = 1.03125, h = 0.0625"
+TWO_ADVANCES = "Cracks/maximum advances=2"
+ADVANCES = "Cracks/maximum advances=4"
+LOAD_STEPS = ["Cracks/growth control=load steps", "Load steps/end time=1.3"]
+BONDS = ["Cracks/growth=bonds"]
 WITH_REACTIONS = "Quantities/reaction=left, bottom"
 
 # name, parameter file, overrides, ghost forces are expected
@@ -51,6 +56,13 @@ CASES = [
      [PLATE, "Solver/tangent=assembled"] + ITERATIVE, False),
     ("iterative, bond based", "plate_with_hole_bond_based.prm",
      [BOND_PLATE] + ITERATIVE, False),
+    ("growth by segments", "edge_crack_growth.prm", [STRIP, TWO_ADVANCES], False),
+    ("growth by segments in load steps", "edge_crack_growth.prm",
+     [STRIP, TWO_ADVANCES] + LOAD_STEPS, False),
+    ("growth bond by bond", "edge_crack_growth.prm",
+     [STRIP, ADVANCES] + BONDS, False),
+    ("growth bond by bond in load steps", "edge_crack_growth.prm",
+     [STRIP, ADVANCES] + BONDS + LOAD_STEPS, False),
 ]
 
 
@@ -113,6 +125,39 @@ def compare_probes(failures, ranks, one, many):
                 (name, column, worst, ranks, scale))
 
 
+def compare_growth(failures, ranks, one, many):
+    """The same advances and broken bonds; the bonds of an event are listed in
+    the order of the nodes, which is that of the ranks."""
+    for name in ("crack_growth.csv", "broken_bonds.csv"):
+        paths = one.path(name), many.path(name)
+        if not os.path.exists(paths[0]):
+            continue
+        tables = []
+        for path in paths:
+            with open(path) as file:
+                rows = list(csv.DictReader(file))
+            if name == "broken_bonds.csv":
+                for row in rows:
+                    ends = sorted((row["x" + k], row["y" + k]) for k in "12")
+                    row.update(zip(("x1", "y1", "x2", "y2"), sum(ends, ())))
+                rows.sort(key=lambda row: (int(row["event"]), row["x1"],
+                                           row["y1"], row["x2"], row["y2"]))
+            tables.append(rows)
+        if not failures.check(len(tables[0]) == len(tables[1]) > 0,
+                              "%s: %d rows on one rank, %d on %d" %
+                              (name, len(tables[0]), len(tables[1]), ranks)):
+            continue
+        for row, other in zip(*tables):
+            for column, text in row.items():
+                if column in ("crack", "energy_of_core_growth"):
+                    continue
+                value, second = float(text), float(other[column])
+                failures.check(
+                    abs(second - value) <= 1e-9 * max(1., abs(value)),
+                    "%s, %s: %s on one rank, %s on %d" %
+                    (name, column, text, other[column], ranks))
+
+
 def compare_counts(failures, ranks, one, many):
     for name, count in one["counts"].items():
         if name != "linear_iterations":
@@ -162,6 +207,7 @@ def main():
                 compare_values(failures, n, one, quantities(many))
                 compare_counts(failures, n, results[0], many)
                 compare_probes(failures, n, runs[0], runs[n - 1])
+                compare_growth(failures, n, runs[0], runs[n - 1])
                 check_ghost(failures, n, results[0], many, ghost)
             failures.end()
         else:

@@ -80,6 +80,17 @@ CASES = [
         "Load steps/end time": "2",
         "Load steps/number of steps": "4",
     }), (1, 6)),
+    ("bonds that break by events", dict(STRIP, **{
+        "Cracks/growth": "bonds",
+        "Cracks/growth control": "events",
+        "Cracks/maximum advances": "5",
+    }), (1, 8)),
+    ("bonds that break in load steps", dict(STRIP, **{
+        "Cracks/growth": "bonds",
+        "Cracks/maximum advances": "12",
+        "Load steps/end time": "1.6",
+        "Load steps/number of steps": "4",
+    }), (1, 6)),
 ]
 
 # Columns that hold only round-off.
@@ -163,6 +174,7 @@ def column_scales(rows, quantities):
 def compare_tables(failures, one, other, tolerance):
     """All tables: the same rows; Newton's iterations on as many ranks."""
     names = ["load_steps.csv", "quantities.csv", "crack_growth.csv",
+             "broken_bonds.csv",
              "newton.csv"]
     for name in names:
         if not os.path.exists(one.path(name)):
