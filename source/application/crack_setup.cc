@@ -68,9 +68,21 @@ namespace Perimorph::Application
               facets.push_back({{{points[k], points[k + 1]}}, crack, 0});
           }
         else
-          for (unsigned int k = 1; k + 1 < points.size(); ++k)
-            facets.push_back(
-              {{{points[0], points[k], points[k + 1]}}, crack, 0});
+          {
+            for (unsigned int k = 1; k + 1 < points.size(); ++k)
+              facets.push_back(
+                {{{points[0], points[k], points[k + 1]}}, crack, 0});
+            for (const auto &numbers : lines[crack].triangles)
+              {
+                Bonds::CrackFacet<dim> facet;
+                for (int v = 0; v < dim; ++v)
+                  for (int d = 0; d < dim; ++d)
+                    facet.corners[v][d] = numbers[dim * v + d];
+                facet.crack = crack;
+                facet.step  = 0;
+                facets.push_back(facet);
+              }
+          }
       }
     Bonds::CrackSet<dim>   cracks(facets);
     std::set<unsigned int> inside;

@@ -1,3 +1,4 @@
+#include <perimorph/application/crack_groups.h>
 #include <perimorph/application/crack_setup.h>
 #include <perimorph/application/simulation.h>
 #include <perimorph/application/stability_advice.h>
@@ -119,7 +120,8 @@ namespace Perimorph::Application
       Mesh::read_gmsh<dim>(file, parameters.geometry_parameters, communicator);
     mesh =
       std::make_unique<Mesh::DistributedMesh<dim>>(gmsh_mesh, communicator);
-    const auto &nodal = mesh->nodal();
+    parameters.pre_cracks = read_crack_groups(gmsh_mesh, parameters.pre_cracks);
+    const auto &nodal     = mesh->nodal();
     log << "Mesh: " << file << "\n  " << nodal.n_nodes() << " nodes, "
         << nodal.n_cells() << " cells; boundaries: ";
     log << Base::join_names(mesh->boundary_names()) << std::endl;

@@ -28,7 +28,7 @@ namespace boost::serialization
             Perimorph::Mesh::GmshMesh<dim> &mesh,
             const unsigned int)
   {
-    archive &mesh.points &mesh.cells &mesh.volumes &mesh.surfaces;
+    archive &mesh.points &mesh.cells &mesh.volumes &mesh.surfaces &mesh.drawn;
   }
 } // namespace boost::serialization
 
@@ -287,6 +287,17 @@ namespace Perimorph::Mesh
           mesh.cells.push_back(cell);
         }
 
+      const int  triangle  = 2;
+      const auto add_drawn = [&](const std::string               &name,
+                                 const std::size_t               *tags,
+                                 const std::vector<unsigned int> &corners) {
+        std::array<dealii::Point<dim>, dim> facet;
+        for (int v = 0; v < dim; ++v)
+          for (int d = 0; d < dim; ++d)
+            facet[v][d] = coordinates[3 * position_of.at(tags[corners[v]]) + d];
+        mesh.drawn[name].push_back(facet);
+      };
+
       gmsh::vectorpair groups;
       gmsh::model::getPhysicalGroups(groups);
       for (const auto &group : groups)
@@ -314,6 +325,9 @@ namespace Perimorph::Mesh
                 if (group.first == dim)
                   for (const auto tag : tags[k])
                     mesh.volumes[name].push_back(cell_of.at(tag));
+                else if (dim == 3 && types[k] == triangle)
+                  for (std::size_t f = 0; f < tags[k].size(); ++f)
+                    add_drawn(name, &nodes[k][3 * f], {0, 1, 2});
                 else if (types[k] == first_order_type(dim - 1))
                   {
                     const auto face_order = lexicographic_order(dim - 1);
@@ -330,8 +344,16 @@ namespace Perimorph::Mesh
                             if (in_mesh)
                               face[v] = found->second;
                           }
+                        const std::size_t *first = &nodes[k][f * n];
                         if (in_mesh)
                           mesh.surfaces[name].push_back(face);
+                        else if (dim == 2)
+                          add_drawn(name, first, {0, 1});
+                        else
+                          {
+                            add_drawn(name, first, {0, 1, 2});
+                            add_drawn(name, first, {0, 2, 3});
+                          }
                       }
                   }
             }

@@ -70,16 +70,17 @@ namespace Perimorph::Parameters
   {
     const std::string form =
       "NAME: " + point_form(dim) + " to " + point_form(dim) +
-      (dim == 3 ? " to ... (a flat polygon)" : " to ...");
+      (dim == 3 ? " to ... (a flat polygon)" : " to ...") +
+      ", or NAME: group NAME";
     std::vector<Polyline> list;
     std::set<std::string> names;
     for (const std::string &entry : split_top_level(text, ';'))
       {
         if (entry.empty())
           continue;
-        const auto     colon = entry.find(':');
-        const Polyline empty = {trim(entry.substr(0, colon)), {}};
-        Polyline       line  = empty;
+        const auto colon = entry.find(':');
+        Polyline   line;
+        line.name = trim(entry.substr(0, colon));
         if (colon == std::string::npos || !is_identifier(line.name))
           {
             errors.add_parameter(path,
@@ -95,8 +96,16 @@ namespace Perimorph::Parameters
                                  "each name once");
             continue;
           }
-        static const std::regex          to("\\s+to\\s+");
-        const std::string                rest = entry.substr(colon + 1);
+        static const std::regex to("\\s+to\\s+");
+        const std::string       rest = trim(entry.substr(colon + 1));
+        std::smatch             match;
+        static const std::regex group("group\\s+(\\S.*)");
+        if (std::regex_match(rest, match, group))
+          {
+            line.group = match[1];
+            list.push_back(line);
+            continue;
+          }
         const std::sregex_token_iterator end;
         bool                             good = true;
         for (std::sregex_token_iterator part(rest.begin(), rest.end(), to, -1);

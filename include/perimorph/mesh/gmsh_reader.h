@@ -24,6 +24,10 @@ namespace Perimorph::Mesh
     std::map<std::string, std::vector<unsigned int>> volumes;
     /// Faces of each named boundary or interior surface, by their points.
     std::map<std::string, std::vector<Face>> surfaces;
+    /// Lines (2D) and triangles (3D) of named surfaces that no cell has, by
+    /// their places: drawn, not meshed.
+    std::map<std::string, std::vector<std::array<dealii::Point<dim>, dim>>>
+      drawn;
   };
 
   /// Reads a gmsh mesh (.msh of any version) or meshes a geometry (.geo) with
