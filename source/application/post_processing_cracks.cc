@@ -102,6 +102,40 @@ namespace Perimorph::Application
   }
 
   template <int dim>
+  Fracture::CrackedBody<dim>
+  PostProcessing<dim>::cracked_body(
+    const State<dim>                   &state,
+    const Mesh::RegionMap              &region,
+    const Peridynamics::FamilySet<dim> &families) const
+  {
+    const bool has_families =
+      parameters.coupling.model == Coupling::Model::correspondence &&
+      region.n_core > 0;
+    return {{mesh.nodal(), materials.laws, state.displacement},
+            cracks,
+            region.alpha,
+            region.horizon,
+            has_families ? &families : nullptr,
+            planes};
+  }
+
+  template <int dim>
+  std::vector<Fracture::TipQuantities>
+  PostProcessing<dim>::tip_quantities(
+    const State<dim>                   &state,
+    const Mesh::RegionMap              &region,
+    const Peridynamics::FamilySet<dim> &families) const
+  {
+    if constexpr (dim == 2)
+      return Fracture::tip_quantities(cracked_body(state, region, families),
+                                      Fracture::find_tips(mesh.nodal(), cracks),
+                                      {},
+                                      mesh.communicator());
+    else
+      return {};
+  }
+
+  template <int dim>
   std::vector<NamedQuantity>
   PostProcessing<dim>::crack_quantities(
     const State<dim>                   &state,
@@ -117,26 +151,12 @@ namespace Perimorph::Application
     };
     if (tip_names.empty())
       return {};
-    const bool has_families =
-      parameters.coupling.model == Coupling::Model::correspondence &&
-      region.n_core > 0;
-    const Fracture::CrackedBody<dim> body{
-      {mesh.nodal(), materials.laws, state.displacement},
-      cracks,
-      region.alpha,
-      region.horizon,
-      has_families ? &families : nullptr,
-      planes};
     if constexpr (dim == 2)
-      for (const auto &tip :
-           Fracture::tip_quantities(body,
-                                    Fracture::find_tips(mesh.nodal(), cracks),
-                                    {},
-                                    mesh.communicator()))
+      for (const auto &tip : tip_quantities(state, region, families))
         add(tip.tip.crack, tip_values(tip));
     else
       for (const auto &front : Fracture::front_quantities(
-             body,
+             cracked_body(state, region, families),
              Fracture::find_fronts(mesh.nodal(), cracks),
              n_stations,
              {},
@@ -160,6 +180,15 @@ namespace Perimorph::Application
   template void PostProcessing<dim>::name_crack_tips();                      \
   template void PostProcessing<dim>::add_crack_names(                        \
     std::vector<std::string> &) const;                                       \
+  template Fracture::CrackedBody<dim> PostProcessing<dim>::cracked_body(     \
+    const State<dim> &,                                                      \
+    const Mesh::RegionMap &,                                                 \
+    const Peridynamics::FamilySet<dim> &) const;                             \
+  template std::vector<Fracture::TipQuantities>                              \
+  PostProcessing<dim>::tip_quantities(const State<dim> &,                    \
+                                      const Mesh::RegionMap &,               \
+                                      const Peridynamics::FamilySet<dim> &)  \
+    const;                                                                   \
   template std::vector<NamedQuantity> PostProcessing<dim>::crack_quantities( \
     const State<dim> &,                                                      \
     const Mesh::RegionMap &,                                                 \

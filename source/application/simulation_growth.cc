@@ -143,14 +143,20 @@ namespace Perimorph::Application
         // Probes: two horizons long, in a fan ahead of each tip.
         struct Fan
         {
-          double              horizon, spacing, length;
-          std::vector<double> angles;
+          double                horizon, spacing, length;
+          std::vector<double>   angles;
+          std::optional<double> direction; ///< known without probes
         };
+        const auto factors = post_processing->tip_quantities(
+          gather(method),
+          method.region,
+          method.problem->correspondence_families());
         std::vector<Fan> fans;
         auto             wider = parameters.region;
-        for (const auto &tip : tips)
+        for (unsigned int t = 0; t < tips.size(); ++t)
           {
-            Fan fan;
+            const auto &tip = tips[t];
+            Fan         fan;
             fan.horizon = horizon_at(nodal, method.region, tip.frame.origin);
             fan.spacing = fan.horizon / parameters.region.horizon_ratio;
             fan.length  = parameters.growth.advance.in_horizons
@@ -158,6 +164,10 @@ namespace Perimorph::Application
                             : parameters.growth.advance.value;
             fan.angles =
               Fracture::probe_angles(cracks.facets()[tip.facet].step == 0);
+            if (!factors[t].values.empty() && !parameters.finite_strain())
+              fan.direction =
+                Fracture::hoop_angle(factors[t].values.front().K_I,
+                                     factors[t].values.front().K_II);
             std::vector<Bonds::CrackFacet<2>> outline;
             for (const double angle :
                  {fan.angles.front(), 0., fan.angles.back()})
@@ -186,10 +196,13 @@ namespace Perimorph::Application
             const auto         &tip = tips[t];
             const auto         &fan = fans[t];
             std::vector<double> drops;
-            for (const double angle : fan.angles)
-              drops.push_back(released(
-                Fracture::advance_facet(tip, angle, 2. * fan.horizon, 0)));
-            const double angle  = Fracture::best_angle(fan.angles, drops);
+            if (!fan.direction)
+              for (const double angle : fan.angles)
+                drops.push_back(released(
+                  Fracture::advance_facet(tip, angle, 2. * fan.horizon, 0)));
+            const double angle  = fan.direction
+                                    ? *fan.direction
+                                    : Fracture::best_angle(fan.angles, drops);
             const double length = Fracture::closing_length(nodal,
                                                            cracks,
                                                            tip,

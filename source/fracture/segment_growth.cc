@@ -38,6 +38,19 @@ namespace Perimorph::Fracture
     }
   } // namespace
 
+  double
+  hoop_angle(const double K_I, const double K_II)
+  {
+    constexpr double largest = 80. * dealii::numbers::PI / 180.;
+    if (K_II == 0.)
+      return 0.;
+    // The root of the quadratic in tan(t/2) without a difference of like
+    // numbers.
+    const double root  = std::sqrt(K_I * K_I + 8. * K_II * K_II);
+    const double angle = -2. * std::atan2(2. * K_II, K_I + root);
+    return std::clamp(angle, -largest, largest);
+  }
+
   std::vector<double>
   probe_angles(const bool first)
   {

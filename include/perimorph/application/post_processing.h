@@ -62,6 +62,14 @@ namespace Perimorph::Application
                      const Mesh::RegionMap              &region,
                      const Peridynamics::FamilySet<dim> &families) const;
 
+    /// At the tips of the cracks, in the order of Fracture::find_tips(); none
+    /// in 3D.
+    /// @param families  as above
+    std::vector<Fracture::TipQuantities>
+    tip_quantities(const State<dim>                   &state,
+                   const Mesh::RegionMap              &region,
+                   const Peridynamics::FamilySet<dim> &families) const;
+
     /// Writes probe_<name>.csv of all lines and circles.
     /// @return names of the files
     std::vector<std::string>
@@ -101,6 +109,11 @@ namespace Perimorph::Application
     name_crack_tips();
     void
     add_crack_names(std::vector<std::string> &names) const;
+
+    Fracture::CrackedBody<dim>
+    cracked_body(const State<dim>                   &state,
+                 const Mesh::RegionMap              &region,
+                 const Peridynamics::FamilySet<dim> &families) const;
 
     double
     nominal_stress(const State<dim> &state) const;

@@ -8,9 +8,17 @@
 
 namespace Perimorph::Fracture
 {
-  /// Energetic segment criterion: probe cuts in several directions give the
-  /// direction of the next advance, the energy that the cut itself releases
-  /// gives the load (numerics-damage.md, section 2).
+  /// Energetic segment criterion (numerics-damage.md, section 2): the energy
+  /// that the cut itself releases gives the load. The direction of the next
+  /// advance is that of the largest hoop stress, from the stress intensity
+  /// factors; where there is no room for a domain integral, probe cuts in
+  /// several directions give it.
+
+  /// Direction of the largest hoop stress relative to the crack [radians]:
+  /// K_I sin(t) + K_II (3 cos(t) - 1) = 0 (Erdogan and Sih 1963), clipped to
+  /// 80 degrees (a closed crack under shear would ask for more than 70.5).
+  double
+  hoop_angle(double K_I, double K_II);
 
   /// Directions of the probes relative to the crack [radians], in rising order:
   /// five to 45 degrees, or nine to 80 degrees for the first kink.

@@ -22,6 +22,18 @@ namespace Perimorph::Fracture
     }
   } // namespace
 
+  TEST(SegmentGrowth, direction_of_the_largest_hoop_stress)
+  {
+    EXPECT_EQ(hoop_angle(2., 0.), 0.);
+    EXPECT_NEAR(hoop_angle(0., 1.), -std::acos(1. / 3.), 1e-14);
+    EXPECT_NEAR(hoop_angle(1., 1.), -std::acos(0.6), 1e-14);
+    EXPECT_EQ(hoop_angle(1., -.5), -hoop_angle(1., .5));
+    const double t = hoop_angle(3., 1e-6);
+    EXPECT_NEAR(3. * std::sin(t) + 1e-6 * (3. * std::cos(t) - 1.), 0., 1e-18);
+    // closed
+    EXPECT_NEAR(hoop_angle(-3., 1.), -80. / 180. * pi, 1e-15);
+  }
+
   TEST(SegmentGrowth, fans_of_probes)
   {
     const auto usual = probe_angles(false), first = probe_angles(true);
