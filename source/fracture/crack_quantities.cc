@@ -1,3 +1,4 @@
+#include <perimorph/fracture/crack_faces.h>
 #include <perimorph/fracture/crack_quantities.h>
 
 #include <deal.II/base/mpi.h>
@@ -91,12 +92,19 @@ namespace Perimorph::Fracture
                                                         around.horizon,
                                                         around.spacing)
                                        : annuli;
+        result.needed_distance =
+          least_free_distance(around.horizon, around.spacing);
         auto set =
           stress_points(cracked,
                         *fit,
                         nodes_within<2>(mesh,
                                         {tip.frame.origin},
                                         largest_radius(result.annuli)));
+        add_face_points(cracked.body,
+                        *fit,
+                        tip,
+                        largest_radius(result.annuli),
+                        set);
         result.n_without_stress =
           dealii::Utilities::MPI::sum(set.n_without_stress, communicator);
         for (const auto &annulus : result.annuli)
@@ -106,12 +114,15 @@ namespace Perimorph::Fracture
                                                       annulus,
                                                       around.constants,
                                                       communicator));
-        result.opening =
-          factors_from_opening(*fit,
-                               cracked.body.displacement,
-                               tip.frame,
-                               std::min(tip.crack_length, tip.free_distance),
-                               around.constants);
+        const double length = std::min(tip.crack_length, tip.straight_distance);
+        constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+        result.opening           = {missing, missing, 0};
+        if (length > 5. * around.spacing)
+          result.opening = factors_from_opening(*fit,
+                                                cracked.body.displacement,
+                                                tip.frame,
+                                                length,
+                                                around.constants);
         all.push_back(std::move(result));
       }
     return all;

@@ -3,6 +3,7 @@
 #include <perimorph/mesh/feature_distance.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <tuple>
@@ -13,6 +14,10 @@ namespace Perimorph::Fracture
   {
     // What counts as touching, relative to the size of a facet or face.
     constexpr double touch = 1e-6;
+
+    // Largest angle at the tip between a crack that bends and the line behind
+    // the tip, as a cosine.
+    const double largest_bend = std::cos(75. / 180. * std::acos(-1.));
 
     // Deviation over distance from the tip of what counts as straight.
     constexpr double straight = 0.1;
@@ -56,12 +61,65 @@ namespace Perimorph::Fracture
       return end;
     }
 
-    /// Distance to the nearest boundary or facet that leaves the line behind
-    /// the tip.
+    /// The facets of CrackTip::path, which begins with the tip.
+    std::vector<unsigned int>
+    follow_back(const std::vector<Bonds::CrackFacet<2>> &facets, CrackTip &tip)
+    {
+      std::vector<unsigned int> chain;
+      tip.path          = {tip.frame.origin};
+      unsigned int next = tip.facet;
+      for (bool goes_on = true; goes_on;)
+        {
+          const auto &corners = facets[next].corners;
+          const auto  begin   = tip.path.back();
+          const auto  end =
+            corners[corners[0].distance(begin) < corners[1].distance(begin)
+                      ? 1
+                      : 0];
+          const double from = begin.distance(tip.frame.origin);
+          const auto   away = end - tip.frame.origin;
+          // Distances along a segment are smallest at an end or at the foot.
+          if (distance(facets[next], tip.frame.origin) <
+                from - touch * facets[next].measure() ||
+              -(away * tip.frame.axes[0]) < largest_bend * away.norm())
+            break;
+          chain.push_back(next);
+          tip.path.push_back(end);
+          goes_on = false;
+          for (unsigned int g = 0; g < facets.size() && !goes_on; ++g)
+            if (std::find(chain.begin(), chain.end(), g) == chain.end())
+              for (const auto &corner : facets[g].corners)
+                if (corner.distance(end) <= touch * facets[g].measure())
+                  {
+                    next    = g;
+                    goes_on = true;
+                  }
+        }
+      return chain;
+    }
+
+    /// Distance to the nearest boundary, to the end of the path, and to facets
+    /// that are not on it.
     double
     free_distance(const Mesh::NodalMesh<2>                &mesh,
                   const std::vector<Bonds::CrackFacet<2>> &facets,
-                  const TipFrame<2>                       &tip)
+                  CrackTip                                &tip)
+    {
+      const auto chain    = follow_back(facets, tip);
+      double     smallest = std::min(boundary_distance(mesh, tip.frame.origin),
+                                 tip.path.back().distance(tip.frame.origin));
+      for (unsigned int f = 0; f < facets.size(); ++f)
+        if (std::find(chain.begin(), chain.end(), f) == chain.end())
+          smallest = std::min(smallest, distance(facets[f], tip.frame.origin));
+      return smallest;
+    }
+
+    /// Distance to the nearest boundary or facet that leaves the line behind
+    /// the tip.
+    double
+    straight_distance(const Mesh::NodalMesh<2>                &mesh,
+                      const std::vector<Bonds::CrackFacet<2>> &facets,
+                      const TipFrame<2>                       &tip)
     {
       double smallest = boundary_distance(mesh, tip.origin);
       for (const auto &facet : facets)
@@ -159,8 +217,12 @@ namespace Perimorph::Fracture
             tip.crack = facets[f].crack;
             tip.facet = f;
             tip.crack_length  = 0.;
-            tip.free_distance = free_distance(mesh, facets, tip.frame);
-            const End root    = first_end(facets, {f, corner});
+            tip.free_distance = free_distance(mesh, facets, tip);
+            tip.straight_distance =
+              std::min(tip.free_distance,
+                       straight_distance(mesh, facets, tip.frame));
+            const End root = first_end(facets, {f, corner});
+            tip.root       = {{root.facet, root.corner}};
             found.emplace_back(Key(tip.crack, root.facet, root.corner, f), tip);
             ++n_tips[tip.crack];
           }

@@ -13,16 +13,35 @@ namespace Perimorph::Fracture
     return std::clamp((outer - distance) / (outer - inner), 0., 1.);
   }
 
+  namespace
+  {
+    // Of the free distance, what an annulus may use; its least width in
+    // spacings.
+    constexpr double share = 0.9, least_width = 2.;
+
+    /// Families closer to the tip reach around it.
+    double
+    least_radius(const double horizon, const double spacing)
+    {
+      return horizon + spacing;
+    }
+  } // namespace
+
+  double
+  least_free_distance(const double horizon, const double spacing)
+  {
+    return (least_radius(horizon, spacing) + least_width * spacing) / share;
+  }
+
   std::vector<Annulus>
   default_annuli(const double crack_length,
                  const double free_distance,
                  const double horizon,
                  const double spacing)
   {
-    const double room   = 0.9 * free_distance;
-    const double length = std::min(crack_length, room);
-    // Families closer to the tip reach around it.
-    const double         smallest = horizon + spacing;
+    const double         room     = share * free_distance;
+    const double         length   = std::min(crack_length, room);
+    const double         smallest = least_radius(horizon, spacing);
     const Annulus        wanted[] = {{0.3 * length, 0.8 * length},
                                      {0.5 * length, length}};
     std::vector<Annulus> annuli;
@@ -32,7 +51,7 @@ namespace Perimorph::Fracture
         annulus.inner = std::max(inner, smallest);
         annulus.outer =
           std::min(room, std::max(outer, annulus.inner + 3. * spacing));
-        if (annulus.outer - annulus.inner >= 2. * spacing &&
+        if (annulus.outer - annulus.inner >= least_width * spacing &&
             (annuli.empty() || annuli[0].outer < annulus.outer))
           annuli.push_back(annulus);
       }
@@ -111,8 +130,9 @@ namespace Perimorph::Fracture
         const auto frame = axes(point.x);
         for (unsigned int k = 0; k < 3; ++k)
           {
-            const auto other =
-              near_tip_state(fields[k], constants, frame, point.x);
+            auto other = near_tip_state(fields[k], constants, frame, point.x);
+            if (point.branch < 0. && fields[k] != NearTipField::point_force)
+              other.change_sign();
             if (frame.curvature != 0.)
               sums[k] += point.volume * point.q *
                          flux_divergence(point, direction, frame, other);
@@ -120,6 +140,27 @@ namespace Perimorph::Fracture
                        (other.gradient * direction * flux +
                         u_along * (other.stress * slope) -
                         dealii::scalar_product(P, other.gradient) * forward);
+          }
+      }
+    for (const auto &face : set.face_points)
+      {
+        if (face.q == 0.)
+          continue;
+        const double weight  = face.length * face.q;
+        const double forward = face.normal * direction;
+        const auto   u_along = face.displacement_gradient * direction;
+        const auto   frame   = axes(face.x);
+        sums[3] += weight * face.energy_density * forward;
+        for (unsigned int k = 0; k < 3; ++k)
+          {
+            auto other = near_tip_state(fields[k], constants, frame, face.x);
+            if (face.branch < 0. && fields[k] != NearTipField::point_force)
+              other.change_sign();
+            sums[k] +=
+              weight * (dealii::scalar_product(face.first_piola_kirchhoff,
+                                               other.gradient) *
+                          forward -
+                        (other.stress * face.normal) * u_along);
           }
       }
     std::array<double, 4> all;
@@ -151,6 +192,8 @@ namespace Perimorph::Fracture
                       const MPI_Comm            communicator)
   {
     set.set_weight(annulus_weights(mesh, tip.origin, annulus));
+    for (auto &face : set.face_points)
+      face.q = annulus.weight(face.x.distance(tip.origin));
     return fracture_quantities<2>(
       set,
       tip.axes[0],

@@ -11,9 +11,10 @@ meshes, horizon ratios, angles and h/a = 1/10.
 """
 
 import math
+import os
 
 import crack_fields
-from verification import Study, write_parameters
+from verification import MESHES as SHIPPED, Study, write_parameters
 
 NU = 1. / 3.
 # K_I/(sigma sqrt(pi a)): a/b = 0.4, h/b = 3 (Tada's strip: 1.1090); square
@@ -220,6 +221,50 @@ def slant_crack(study):
                            % tuple(own))
 
 
+def arc_crack(study):
+    """A crack along an arc of a circle, 360 pieces, in a plate 40 times as
+    wide: the domain integrals have terms on its faces. Cotterell and Rice
+    (1980), tension normal to the chord; h = 1/20 of half the chord."""
+    half = math.radians(45.)
+    radius = 1. / math.sin(half)
+    path = " to ".join(
+        "%.16g %.16g" % (radius * math.sin(t), radius * math.cos(t) - 1.2)
+        for t in (half * (k - 180) / 180. for k in range(361)))
+    solution = study.solve(
+        write_parameters(
+            study.folder() + "/case.prm", {
+                "Mesh/file": os.path.join(SHIPPED, "plate_graded.geo"),
+                "Mesh/geometry parameters":
+                "hx = 40, hy = 40, fx = 1.5, fy = 1.525, nx = 60, ny = 61, "
+                "q = 1.2",
+                "Material/Young's modulus": 1,
+                "Material/Poisson's ratio": "%.17g" % NU,
+                "Material/state": "plane stress",
+                "Peridynamics/horizon ratio": 2,
+                "Cracks/pre-cracks": "crack: " + path,
+                "Boundary conditions/traction": "top: y = 1; bottom: y = -1"
+            }))
+    s, c = math.sin(.5 * half), math.cos(.5 * half)
+    share = (.5 - .5 * (s * c)**2) / (1. + s * s)
+    mode_1 = math.sqrt(math.pi) * (share * c + .5 * math.cos(1.5 * half))
+    mode_2 = math.sqrt(math.pi) * (share * s + .5 * math.sin(1.5 * half))
+    size = math.hypot(mode_1, mode_2)
+    for tip in (1, 2):
+        name = "crack_tip%d_" % tip
+        found = solution[name + "K_I"], abs(solution[name + "K_II"])
+        for mode, value, exact, limit in (("K_I", found[0], mode_1, 1.5),
+                                          ("K_II", found[1], mode_2, 1.5)):
+            error = percent(value, exact, size)
+            study.row("arc, tip %d: %s" % (tip, mode), value, exact,
+                      "%+.2f of %g %%" % (error, limit), abs(error) <= limit)
+        study.within("arc, tip %d: hoop stress, degrees" % tip,
+                     crack_fields.hoop_angle(*found),
+                     crack_fields.hoop_angle(mode_1, mode_2), .5)
+        study.below("arc, tip %d: domain dependence %%" % tip,
+                    100. * solution[name + "domain_dependence"], .3)
+        study.note("J E/K^2 %.4f" % (solution[name + "J"] / size**2))
+
+
 # ------------------------------------------------------------------- growth
 
 def release(length):
@@ -353,6 +398,7 @@ def main():
         ("tip moved through a cell", tip_in_cell),
         ("centre crack in a square plate, dx = 0.25 mm", square_plate),
         ("slant crack, infinite plate, h/a = 1/20", slant_crack),
+        ("crack along an arc", arc_crack),
         ("growth of an edge crack in a strip", growth_of_edge_crack),
         ("growth by load steps", growth_by_load_steps),
         ("kinks", kinks)):

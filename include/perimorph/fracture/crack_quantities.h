@@ -27,7 +27,10 @@ namespace Perimorph::Fracture
     CrackTip                        tip;
     std::vector<Annulus>            annuli; ///< none: no room, no values
     std::vector<FractureQuantities> values;
-    /// A check of the factors; not for a crack that is meshed (nodes in one
+    /// Free distance that the smallest annulus needs.
+    double needed_distance = 0.;
+    /// Not a number where the crack is straight over less than 5 spacings. A
+    /// check of the factors; not for a crack that is meshed (nodes in one
     /// place on both faces).
     OpeningFactors opening;
     /// StressPointSet::n_without_stress of all ranks; 0 when all is well.

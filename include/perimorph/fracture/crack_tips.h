@@ -4,6 +4,7 @@
 #include <perimorph/fracture/williams_field.h>
 #include <perimorph/mesh/nodal_mesh.h>
 
+#include <array>
 #include <vector>
 
 namespace Perimorph::Fracture
@@ -14,13 +15,22 @@ namespace Perimorph::Fracture
     TipFrame<2>  frame;
     unsigned int crack; ///< CrackFacet::crack
     unsigned int facet; ///< index of the facet that ends here
+    /// Facet and its corner that the tip has grown from: a name that advances
+    /// do not change.
+    std::array<unsigned int, 2> root;
     /// Length of the crack over its number of tips: the half length of a crack
     /// inside the body, the length of an edge crack.
     double crack_length;
-    /// Distance to the nearest boundary, kink, or other crack: the crack is
-    /// straight and alone within. Growth that turns by less than 6 degrees
-    /// counts as straight.
+    /// Distance to the nearest boundary, other crack or other end of this one:
+    /// within, there is this crack only, and each circle around the tip crosses
+    /// it once.
     double free_distance;
+    /// The same with the nearest kink. Growth that turns by less than 6 degrees
+    /// counts as straight.
+    double straight_distance;
+    /// Corners from the tip backwards, at growing distances from the tip and
+    /// within 75 degrees of the line behind it; none: a straight crack.
+    std::vector<dealii::Point<2>> path = {};
   };
 
   /// All tips: ends that touch no other facet and lie inside the body. In the

@@ -33,15 +33,19 @@ namespace Perimorph::Fracture
   /// With L the smaller of the crack length and 0.9 times the free distance:
   /// (0.3, 0.8) L as in numerics.md, Q4, and (0.5, 1) L.
   /// @param crack_length   half length of a crack with two tips
-  /// @param free_distance  from the tip to the next boundary, kink or other
-  ///                       crack
+  /// @param free_distance  from the tip to the next boundary or other crack
   /// @param horizon        of the families at the tip; 0 without families
   /// @param spacing        of the mesh at the tip
+  ///
+  /// A tip needs a free distance of least_free_distance() for one of them.
   std::vector<Annulus>
   default_annuli(double crack_length,
                  double free_distance,
                  double horizon,
                  double spacing);
+
+  double
+  least_free_distance(double horizon, double spacing);
 
   /// q of every node for a tip of a plane crack.
   std::vector<double>
@@ -69,9 +73,10 @@ namespace Perimorph::Fracture
   /// advance, and the interaction integrals with the near-tip fields. The
   /// points hold the gradient of q (StressPointSet::set_weight).
   ///
-  /// The crack must be straight, free of traction and alone within the
-  /// annulus, the body homogeneous and free of body forces. K and T belong to
-  /// small strain, J to any. Sums over all ranks.
+  /// The crack must be free of traction and alone within the
+  /// annulus, straight or with points on its faces (crack_faces.h), the body
+  /// homogeneous and free of body forces. K and T belong to small strain, J to
+  /// any. Sums over all ranks.
   /// @param direction  of advance, where q = 1
   /// @param axes       local axes of the auxiliary fields at a place
   /// @param area       by which the crack grows when it advances by q:

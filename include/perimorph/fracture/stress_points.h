@@ -22,6 +22,21 @@ namespace Perimorph::Fracture
     double                 energy_density;
     double                 q; ///< weight of a domain integral
     dealii::Tensor<1, dim> q_gradient;
+    double                 branch = 1.; ///< branch_sign()
+  };
+
+  /// A piece of a face of a crack.
+  template <int dim>
+  struct FacePoint
+  {
+    dealii::Point<dim>     x;      ///< a hair's breadth inside of the body
+    double                 length; ///< area in 3D
+    dealii::Tensor<1, dim> normal; ///< outwards
+    dealii::Tensor<2, dim> displacement_gradient;
+    dealii::Tensor<2, dim> first_piola_kirchhoff;
+    double                 energy_density = 0.;
+    double                 q              = 0.;
+    double                 branch         = 1.;
   };
 
   /// Stress points of a rank, and how each takes values and gradients.
@@ -29,6 +44,8 @@ namespace Perimorph::Fracture
   struct StressPointSet
   {
     std::vector<StressPoint<dim>> points;
+    /// Only where a crack bends within the domain: add_face_points().
+    std::vector<FacePoint<dim>> face_points;
 
     std::vector<std::size_t>            offsets = {0};   ///< per point
     std::vector<unsigned int>           node;            ///< global

@@ -47,9 +47,33 @@ namespace
     EXPECT_EQ(tips[1].facet, 1u);
     for (const auto &tip : tips)
       EXPECT_NEAR(tip.crack_length, 0.5 * (0.2 + std::sqrt(0.02)), 1e-14);
+    // the boundary, and the other end
+    EXPECT_NEAR(tips[0].free_distance, 0.3, 1e-14);
+    EXPECT_NEAR(tips[1].free_distance, std::sqrt(0.1), 1e-14);
     // up to the kink
-    EXPECT_NEAR(tips[0].free_distance, 0.2, 1e-14);
-    EXPECT_NEAR(tips[1].free_distance, std::sqrt(0.02), 1e-14);
+    EXPECT_NEAR(tips[0].straight_distance, 0.2, 1e-14);
+    EXPECT_NEAR(tips[1].straight_distance, std::sqrt(0.02), 1e-14);
+    const std::vector<Point2> path = {Point2(0.6, 0.6),
+                                      Point2(0.5, 0.5),
+                                      Point2(0.3, 0.5)};
+    EXPECT_EQ(tips[1].path, path);
+  }
+
+  TEST(CrackTips, path_ends_where_the_crack_comes_back)
+  {
+    // away from the tip, then back past it
+    const Bonds::CrackSet<2> hook(
+      {segment(Point2(0.5, 0.5), Point2(0.3, 0.5)),
+       segment(Point2(0.3, 0.5), Point2(0.3, 0.6)),
+       segment(Point2(0.3, 0.6), Point2(0.6, 0.6))});
+    const auto                tips = find_tips(square(), hook);
+    const auto               &tip  = tips[0];
+    const std::vector<Point2> path = {Point2(0.5, 0.5),
+                                      Point2(0.3, 0.5),
+                                      Point2(0.3, 0.6)};
+    EXPECT_EQ(tip.frame.origin, Point2(0.5, 0.5));
+    EXPECT_EQ(tip.path, path);
+    EXPECT_NEAR(tip.free_distance, 0.1, 1e-14);
   }
 
   TEST(CrackTips, ends_at_or_beyond_the_boundary_or_on_a_crack_are_none)
@@ -81,8 +105,10 @@ namespace
     EXPECT_EQ(tips[0].frame.origin, Point2(0.3, 0.501));
     EXPECT_EQ(tips[0].facet, 2u);
     EXPECT_EQ(tips[1].frame.origin, Point2(0.6, 0.5));
+    EXPECT_EQ(tips[0].root, (std::array<unsigned int, 2>{{0, 0}}));
+    EXPECT_EQ(tips[1].root, (std::array<unsigned int, 2>{{0, 1}}));
     // small turns count as straight
-    EXPECT_NEAR(tips[0].free_distance, 0.3, 1e-14);
+    EXPECT_NEAR(tips[0].straight_distance, 0.3, 1e-14);
   }
 
   /// Fan of triangles around a center, corners beyond the mesh allowed.
