@@ -105,8 +105,9 @@ namespace Perimorph::Application
       "core size",
       core_size,
       "Distance from there that is purely peridynamic: a length or '2 "
-      "horizons'; automatic: 2 horizons, 5 with cracks that do not grow, whose "
-      "stress intensity factors need room.",
+      "horizons'; automatic: 2 horizons, 4 with cracks that grow by segments "
+      "and 5 with cracks that do not grow, whose stress intensity factors need "
+      "room.",
       Anything());
     prm.add_parameter("blending width",
                       blending_width,
@@ -214,10 +215,9 @@ namespace Perimorph::Application
       "growth control",
       growth_control,
       "load steps: at the loads of each step cracks grow while they can. "
-      "events: the loads of the end time times a factor that makes each "
-      "advance "
-      "just possible (linear problems, loads in proportion to t); snap-back "
-      "included.",
+      "events: at the t at which each advance is just possible, past the end "
+      "time or below it; snap-back included. Linear problems scale the loads, "
+      "which must be multiples of t; others follow them up and down.",
       choice({"load steps", "events"}));
     prm.add_parameter("maximum advances",
                       maximum_advances,

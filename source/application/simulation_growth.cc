@@ -3,6 +3,7 @@
 #include <perimorph/base/collective.h>
 #include <perimorph/base/log.h>
 #include <perimorph/fracture/segment_growth.h>
+#include <perimorph/solvers/load_stepping.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -82,7 +83,8 @@ namespace Perimorph::Application
     result->add_count("newton_iterations", record.n_iterations());
     result->add_count("linear_iterations", record.linear_iterations);
     if (!record.converged)
-      throw Base::SolveError(record.reason);
+      throw Base::SolveError("behind an advance or a break at t = " +
+                             std::to_string(start.time) + ": " + record.reason);
   }
 
   template <int dim>
@@ -185,11 +187,10 @@ namespace Perimorph::Application
         const double           switched = grow_core(method, wider);
         const double           start    = potential_energy(method);
         std::optional<Advance> best;
-        const auto released = [&](const Bonds::CrackFacet<2> &facet) {
+        const auto with_cut = [&](const Bonds::CrackFacet<2> &facet) {
           auto longer = cracks;
           longer.append({facet});
-          return start -
-                 potential_energy(solve_with(longer, method.region, method));
+          return solve_with(longer, method.region, method);
         };
         for (unsigned int t = 0; t < tips.size(); ++t)
           {
@@ -198,8 +199,10 @@ namespace Perimorph::Application
             std::vector<double> drops;
             if (!fan.direction)
               for (const double angle : fan.angles)
-                drops.push_back(released(
-                  Fracture::advance_facet(tip, angle, 2. * fan.horizon, 0)));
+                drops.push_back(
+                  start -
+                  potential_energy(with_cut(
+                    Fracture::advance_facet(tip, angle, 2. * fan.horizon, 0))));
             const double angle  = fan.direction
                                     ? *fan.direction
                                     : Fracture::best_angle(fan.angles, drops);
@@ -215,10 +218,11 @@ namespace Perimorph::Application
               Fracture::advance_facet(tip, angle, length, n_advances + 1);
             advance.length   = length_inside(nodal, advance.facet);
             advance.switched = switched;
-            advance.released = released(advance.facet);
+            advance.after    = with_cut(advance.facet);
+            advance.released = start - potential_energy(advance.after);
             if (!best || advance.released * best->length >
                            best->released * advance.length)
-              best = advance;
+              best = std::move(advance);
           }
         return best;
       }
@@ -287,11 +291,11 @@ namespace Perimorph::Application
     const double G_c = parameters.growth.fracture_energy;
     while (n_advances < parameters.growth.maximum_advances)
       {
-        const auto advance = best_advance(method, on_newton);
+        auto advance = best_advance(method, on_newton);
         if (!advance || advance->released < G_c * advance->length)
           return;
         cracks.append({advance->facet});
-        method = solve_with(cracks, method.region, method);
+        method = std::move(advance->after);
         ++n_advances;
         ++step.number;
         released_energy += advance->released;
@@ -327,6 +331,12 @@ namespace Perimorph::Application
   {
     if (progress.number > 0)
       return;
+    if (!method.equilibrium->is_linear())
+      {
+        // Small: the first event tells how far to go.
+        rise_to(1e-6 * parameters.end_time, method, step, on_newton);
+        return;
+      }
     scale_to(parameters.end_time, method, step, on_newton);
     const Fem::Vector whole(method.displacement);
     scale_to(0.5 * parameters.end_time, method, step, on_newton);
@@ -343,6 +353,110 @@ namespace Perimorph::Application
     // Unloaded until the first load factor is known: what happens to the core
     // before does no work.
     counts_work = false;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::rise_to(const double    time,
+                           Method         &method,
+                           Step           &step,
+                           const OnNewton &on_newton)
+  {
+    // The work of the trapezoidal rule needs steps.
+    constexpr double      largest_rise = 0.1;
+    const double          start        = method.time;
+    Solvers::LoadStepping stepping(parameters.load_stepping);
+    while (method.time != time)
+      {
+        const double limit =
+          largest_rise * std::max(std::abs(time), std::abs(method.time));
+        const double next =
+          std::abs(time - method.time) > limit
+            ? method.time + std::copysign(limit, time - method.time)
+            : time;
+        std::string reason;
+        const auto  attempt = [&](const double target) {
+          const Fem::Vector before(method.displacement);
+          const auto        record = method.equilibrium->solve(
+            target,
+            method.displacement,
+            [&](const auto &i) { on_newton(step, i); });
+          if (!record.converged)
+            {
+              reason              = record.reason;
+              method.displacement = before;
+              return false;
+            }
+          method.time            = target;
+          step.time              = target;
+          step.newton_iterations = record.n_iterations();
+          step.relative_residual = record.residuals.back();
+          count_work(gather(method));
+          return true;
+        };
+        if (stepping.advance(
+              method.time,
+              next,
+              attempt,
+              [](double, double) {},
+              [](double) {}) != next)
+          {
+            // What was reached may be far enough.
+            if (method.time != start)
+              return;
+            throw Base::SolveError("at load factor " + std::to_string(next) +
+                                   ": " + reason);
+          }
+      }
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::find_load(Advance        &advance,
+                             Method         &method,
+                             Step           &step,
+                             const OnNewton &on_newton)
+  {
+    const double needed = parameters.growth.fracture_energy * advance.length;
+    if (method.equilibrium->is_linear())
+      {
+        const double factor = std::sqrt(needed / advance.released);
+        scale_to(factor * method.time, method, step, on_newton);
+        scale_to(method.time, advance.after, step, on_newton);
+        advance.released = needed;
+        return;
+      }
+    constexpr unsigned int most_iterations = 20;
+    constexpr double       tolerance       = 1e-8;
+    double                 exponent        = 2.;
+    for (unsigned int k = 0; k < most_iterations; ++k)
+      {
+        const double ratio = advance.released / needed;
+        if (std::abs(ratio - 1.) < tolerance)
+          return;
+        const double time = method.time;
+        rise_to(time * std::clamp(std::pow(ratio, -1. / exponent), 0.25, 1e7),
+                method,
+                step,
+                on_newton);
+        auto longer = cracks;
+        longer.append({advance.facet});
+        advance.after = solve_with(longer, method.region, method);
+        const double released =
+          potential_energy(method) - potential_energy(advance.after);
+        if (!(released > 0.))
+          throw Base::SolveError("an advance would release no energy at load "
+                                 "factor " +
+                                 std::to_string(method.time));
+        // Secant in logarithms.
+        const double measured =
+          std::log(released / advance.released) / std::log(method.time / time);
+        if (measured > 0.5 && measured < 8.)
+          exponent = measured;
+        advance.released = released;
+      }
+    throw Base::SolveError("no load found at which an advance releases the "
+                           "fracture energy");
   }
 
   template <int dim>
@@ -367,21 +481,18 @@ namespace Perimorph::Application
             log << "  an advance would release no energy" << std::endl;
             return true;
           }
-        const double factor =
-          std::sqrt(G_c * advance->length / advance->released);
         if (!counts_work)
           switched_energy = 0.;
         counts_work = true;
-        scale_to(factor * method.time, method, step, on_newton);
+        find_load(*advance, method, step, on_newton);
         ++step.number;
         step.between = true;
         on_step(step);
         step.between = false;
         cracks.append({advance->facet});
-        method = solve_with(cracks, method.region, method);
+        method = std::move(advance->after);
         ++n_advances;
         ++step.number;
-        advance->released *= factor * factor;
         released_energy += advance->released;
         dissipated_energy += G_c * advance->length;
         grown_length += advance->length;
@@ -422,6 +533,14 @@ namespace Perimorph::Application
   template void Simulation<dim>::start_events(Method &,                       \
                                               Step &,                         \
                                               const OnNewton &);              \
+  template void Simulation<dim>::rise_to(double,                              \
+                                         Method &,                            \
+                                         Step &,                              \
+                                         const OnNewton &);                   \
+  template void Simulation<dim>::find_load(Advance &,                         \
+                                           Method &,                          \
+                                           Step &,                            \
+                                           const OnNewton &);                 \
   template bool Simulation<dim>::follow_growth_events(Method &,               \
                                                       const OnStep &,         \
                                                       const OnNewton &);

@@ -17,10 +17,12 @@ namespace Perimorph::Application
     // Domain integrals are best where one method carries all of the annulus
     // (doc/theory, 12).
     if (region.core_size.automatic)
-      region.core_size = {
-        !pre_cracks.empty() && texts.crack_growth == "none" ? 5. : 2.,
-        true,
-        false};
+      region.core_size = {pre_cracks.empty() || texts.crack_growth == "bonds"
+                            ? 2.
+                          : texts.crack_growth == "segments" ? 4.
+                                                             : 5.,
+                          true,
+                          false};
     growth.active           = texts.crack_growth != "none";
     growth.bonds            = texts.crack_growth == "bonds";
     growth.events           = growth.active && texts.growth_control == "events";
@@ -78,11 +80,11 @@ namespace Perimorph::Application
                            "'" + texts.crack_growth + "' with coupling '" +
                              texts.coupling + "'",
                            "coupling = consistent");
-    if (growth.events && (finite_strain() || texts.control != "load"))
+    if (growth.events && texts.control != "load")
       errors.add_parameter("Cracks / growth control",
-                           "'events' in a nonlinear problem",
+                           "'events' with arc length",
                            "load steps",
-                           "Loads can be scaled in linear problems only.");
+                           "Events find their own loads.");
   }
 
   template <int dim>

@@ -312,7 +312,7 @@ namespace Perimorph::Application
       result->set("checks", "imbalance", imbalance);
       // Between the states of a path that is not straight the work is that of
       // the trapezoidal rule.
-      if (method.equilibrium->is_linear())
+      if (method.equilibrium->is_linear() || parameters.growth.events)
         result->set("checks",
                     "energy_balance",
                     energy_balance(work,

@@ -187,7 +187,21 @@ namespace Perimorph::Application
       double                 length;   ///< that is new crack in the body
       double                 released; ///< potential energy at fixed loads
       double                 switched; ///< change by the growth of the core
+      Method                 after;    ///< the state behind it
     };
+    /// Brings both states of an advance to the load at which it releases its
+    /// fracture energy.
+    /// @throws Base::SolveError  none found (nonlinear problems)
+    void
+    find_load(Advance        &advance,
+              Method         &method,
+              Step           &step,
+              const OnNewton &on_newton);
+    /// Follows the loads of a nonlinear problem up or down, counting the work,
+    /// as far as it converges.
+    /// @throws Base::SolveError  not at all
+    void
+    rise_to(double time, Method &method, Step &step, const OnNewton &on_newton);
     /// The advance that needs least load; none when no tip is left. Replaces
     /// the method by one whose peridynamic core has room for it.
     std::optional<Advance>
