@@ -142,17 +142,59 @@ namespace Perimorph::Application
         }
   }
 
-#define PERIMORPH_INSTANTIATE(dim)                                      \
-  template Bonds::CrackSet<dim> make_cracks<dim>(                       \
-    const Mesh::NodalMesh<dim> &,                                       \
-    const std::vector<Parameters::Polyline> &);                         \
-  template std::vector<Parameters::Feature> crack_features<dim>(        \
-    const Bonds::CrackSet<dim> &);                                      \
-  template void check_cracks_in_core<dim>(const Mesh::NodalMesh<dim> &, \
-                                          const Mesh::RegionMap &,      \
-                                          const Bonds::CrackSet<dim> &, \
-                                          const std::vector<std::string> &);
+  template <int dim>
+  std::vector<bool>
+  protected_nodes(const Mesh::DistributedMesh<dim>       &mesh,
+                  const Mesh::RegionMap                  &region,
+                  const std::vector<Parameters::Feature> &features)
+  {
+    using Parameters::FeatureKind;
+    const auto               &nodal = mesh.nodal();
+    std::vector<bool>         found(nodal.n_nodes(), false);
+    Base::InputErrorCollector errors;
+    for (const auto &feature : features)
+      errors.collect([&]() {
+        const bool boundary = feature.kind == FeatureKind::boundary;
+        const bool volume   = feature.kind == FeatureKind::volume;
+        const bool is_solid = volume || feature.kind == FeatureKind::box ||
+                              feature.kind == FeatureKind::ball;
+        const Mesh::FeatureDistance<dim> distance(
+          feature,
+          mesh,
+          std::string("parameter 'Cracks / protected ") +
+            (boundary ? "boundaries'"
+             : volume ? "materials'"
+                      : "regions'"));
+        for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
+          {
+            const double reach =
+              is_solid ? 1e-9 * nodal.spacing[n] : region.horizon[n];
+            if (distance
+                  .closest_to_node(nodal,
+                                   n,
+                                   [&](const auto &) { return reach; })
+                  .distance <= reach)
+              found[n] = true;
+          }
+      });
+    errors.throw_if_any();
+    return found;
+  }
 
+#define PERIMORPH_INSTANTIATE(dim)                                           \
+  template Bonds::CrackSet<dim> make_cracks<dim>(                            \
+    const Mesh::NodalMesh<dim> &,                                            \
+    const std::vector<Parameters::Polyline> &);                              \
+  template std::vector<Parameters::Feature> crack_features<dim>(             \
+    const Bonds::CrackSet<dim> &);                                           \
+  template void check_cracks_in_core<dim>(const Mesh::NodalMesh<dim> &,      \
+                                          const Mesh::RegionMap &,           \
+                                          const Bonds::CrackSet<dim> &,      \
+                                          const std::vector<std::string> &); \
+  template std::vector<bool> protected_nodes<dim>(                           \
+    const Mesh::DistributedMesh<dim> &,                                      \
+    const Mesh::RegionMap &,                                                 \
+    const std::vector<Parameters::Feature> &);
 
   PERIMORPH_INSTANTIATE(2)
   PERIMORPH_INSTANTIATE(3)

@@ -187,10 +187,12 @@ namespace Perimorph::Application
       "criterion",
       criterion,
       "Of growth = bonds: where a bond breaks. critical energy: its energy "
-      "over "
-      "the volumes of its ends is that of a crack of 'fracture energy'. "
-      "critical stretch: its stretch is; load and path depend more on the "
-      "mesh. automatic: critical energy.",
+      "over the volumes of its ends is that of a crack of 'fracture energy'. "
+      "critical stretch: its stretch is, or is 'critical stretch'; load and "
+      "path depend more on the mesh. bond strain, equivalent strain, "
+      "volumetric strain, maximum principal stress: by strain or stress of "
+      "the particles at its ends; find where damage starts, but cracks become "
+      "wide bands. automatic: critical energy.",
       choice(automatic_or(Damage::criterion_names())));
     prm.add_parameter(
       "energy calibration",
@@ -207,6 +209,58 @@ namespace Perimorph::Application
                       fracture_energy,
                       "G_c [stress * length]; energy per area of crack.",
                       Double(0.));
+    prm.add_parameter("critical stretch",
+                      critical_stretch,
+                      "s_cr [-] of criterion = critical stretch, instead of a "
+                      "'fracture energy'; 0: from that.",
+                      Double(0.));
+    prm.add_parameter("critical bond strain",
+                      critical_bond_strain,
+                      "Of criterion = bond strain: |eta_d| / |xi| [-], the "
+                      "deviatoric strain of the bond, under tension.",
+                      Double(0.));
+    prm.add_parameter("critical equivalent strain",
+                      critical_equivalent_strain,
+                      "Of criterion = equivalent strain: sqrt(2/3 e : e) [-] "
+                      "of the deviator e.",
+                      Double(0.));
+    prm.add_parameter("critical volumetric strain",
+                      critical_volumetric_strain,
+                      "Of criterion = volumetric strain: trace of the strain "
+                      "[-].",
+                      Double(0.));
+    prm.add_parameter("tensile strength",
+                      tensile_strength,
+                      "Of criterion = maximum principal stress: f_t [stress].",
+                      Double(0.));
+    prm.add_parameter(
+      "cohesion",
+      cohesion,
+      "Of criterion = maximum principal stress: C [stress]; bonds also break "
+      "by shear where (s1 - s3) / 2 = C cos phi - (s1 + s3) / 2 sin phi "
+      "(Mohr-Coulomb, tension positive). 0: they do not.",
+      Double(0.));
+    prm.add_parameter("friction angle",
+                      friction_angle,
+                      "phi [degrees] of Mohr-Coulomb, with 'cohesion'.",
+                      Double(0., 89.));
+    prm.add_parameter("protected boundaries",
+                      protected_boundaries,
+                      "Of growth = bonds: bonds with an end within one horizon "
+                      "of these boundaries never break: top, bottom.",
+                      Anything());
+    prm.add_parameter("protected materials",
+                      protected_materials,
+                      "Of growth = bonds: bonds with an end in these volumes "
+                      "never break: inclusion, ...",
+                      Anything());
+    prm.add_parameter(
+      "protected regions",
+      protected_regions,
+      "Of growth = bonds: bonds with an end there never break, separated by "
+      "';': box x0 y0 x1 y1 | ball x y r | within one horizon of point x y | "
+      "segment x0 y0 x1 y1 | plane px py nx ny (with z in 3D).",
+      Anything());
     prm.add_parameter("advance length",
                       advance_length,
                       "Of one advance: a length, or in horizons: '1 horizons'.",

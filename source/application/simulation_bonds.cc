@@ -3,6 +3,7 @@
 #include <perimorph/base/log.h>
 #include <perimorph/coupling/bond_energies.h>
 #include <perimorph/coupling/broken_families.h>
+#include <perimorph/coupling/particle_states.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +21,28 @@ namespace Perimorph::Application
 
     /// A part of the body is more than debris above this share of its nodes.
     constexpr double large_part = 0.05;
+
+    /// Means of the two ends; of the other one where one has lost its family.
+    template <int dim>
+    void
+    see_particles(const Coupling::ParticleState &first,
+                  const Coupling::ParticleState &second,
+                  const dealii::Tensor<1, dim>  &xi,
+                  const dealii::Tensor<1, dim>  &eta,
+                  Damage::BondState             &bond)
+    {
+      const auto &a = first.exists ? first : second;
+      const auto &b = second.exists ? second : first;
+      bond.strain   = 0.5 * (a.strain + b.strain);
+      bond.stress   = 0.5 * (a.stress + b.stress);
+      for (int d = 0; d < dim; ++d)
+        {
+          bond.direction[d] = xi[d] / bond.length;
+          bond.relative[d]  = eta[d] / bond.length;
+        }
+      bond.relative -= 0.5 * (a.rotation + b.rotation) * bond.direction;
+      bond.largest_dilatation = std::max(trace(a.strain), trace(b.strain));
+    }
 
     /// Share of the core inside the body whose nodes sit in the middle of their
     /// neighbours, as those of a lattice do.
@@ -59,9 +82,13 @@ namespace Perimorph::Application
     if (share_on_lattice(mesh->nodal(), region) > 0.5)
       log.warning("bonds break along the rows of a regular mesh; use an "
                   "unstructured one where cracks are to find their way");
+    if (Damage::sees_particles(parameters.growth.criterion))
+      log.warning("the criterion sees means over families, which hardly feel a "
+                  "cut: it finds where damage starts, but damage becomes a "
+                  "band several horizons wide instead of a crack");
     const double ratio = parameters.region.horizon_ratio;
     if (parameters.growth.criterion == Damage::Criterion::critical_energy &&
-        parameters.growth.calibration == 0. &&
+        parameters.growth.limits.calibration == 0. &&
         (parameters.state != Materials::PlaneState::plane_stress ||
          parameters.coupling.gamma != 1. || ratio < 2. || ratio > 3.))
       log.warning("the automatic 'Cracks / energy calibration' was measured in "
@@ -89,6 +116,15 @@ namespace Perimorph::Application
     for (const auto &bond : energies)
       if (alpha[bond.nodes[0]] < 1. || alpha[bond.nodes[1]] < 1.)
         in_core[bond.nodes[0]] = in_core[bond.nodes[1]] = false;
+
+    std::vector<Coupling::ParticleState> particles;
+    if (Damage::sees_particles(parameters.growth.criterion))
+      particles =
+        Coupling::particle_states(nodal,
+                                  method.problem->correspondence_families(),
+                                  materials.laws,
+                                  state.displacement,
+                                  communicator);
 
     std::vector<BondLoad> loads;
     loads.reserve(energies.size());
@@ -118,8 +154,12 @@ namespace Perimorph::Application
           return materials.bond_constants[nodal.cell_material[cell]]
             .youngs_modulus;
         });
+        if (!particles.empty())
+          see_particles(particles[i], particles[j], xi, eta, one);
         loads.push_back({bond.nodes,
-                         breaking_rule->load_factor(one),
+                         is_protected[i] || is_protected[j]
+                           ? never
+                           : breaking_rule->load_factor(one),
                          bond.energy,
                          in_core[i] && in_core[j]});
       }

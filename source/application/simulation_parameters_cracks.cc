@@ -1,5 +1,9 @@
 #include <perimorph/application/simulation_parameters.h>
 
+#include <algorithm>
+#include <map>
+#include <sstream>
+
 namespace Perimorph::Application
 {
   template <int dim>
@@ -48,10 +52,23 @@ namespace Perimorph::Application
       errors.add_parameter("Peridynamics / coupling",
                            "'force blending' with cracks",
                            "consistent, energy blending");
+    for (const auto &[entry, text] : std::map<std::string, std::string>{
+           {"protected boundaries", texts.protected_boundaries},
+           {"protected materials", texts.protected_materials},
+           {"protected regions", texts.protected_regions}})
+      if (!text.empty() && !growth.bonds)
+        errors.add_parameter("Cracks / " + entry,
+                             "'" + text + "' with growth '" +
+                               texts.crack_growth + "'",
+                             "growth = bonds");
     if (!growth.active)
       return;
     if (growth.bonds)
-      check_bond_breaking(texts, errors);
+      {
+        check_bond_breaking(texts, errors);
+        read_bond_limits(texts, errors);
+        read_protection(texts, errors);
+      }
     if (dim == 3 && !growth.bonds)
       errors.add_parameter("Cracks / growth",
                            "'" + texts.crack_growth + "' in 3D",
@@ -61,7 +78,7 @@ namespace Perimorph::Application
       errors.add_parameter("Cracks / growth",
                            "'" + texts.crack_growth + "' without a crack",
                            "at least one crack in 'Cracks / pre-cracks'");
-    if (!(growth.fracture_energy > 0.))
+    if (!growth.bonds && !(growth.fracture_energy > 0.))
       errors.add_parameter("Cracks / fracture energy",
                            "nothing or 0",
                            "a number > 0");
@@ -93,14 +110,18 @@ namespace Perimorph::Application
     const ParameterTexts      &texts,
     Base::InputErrorCollector &errors)
   {
-    growth.calibration = texts.energy_calibration;
-    growth.criterion   = texts.criterion == "critical stretch"
-                           ? Damage::Criterion::critical_stretch
-                           : Damage::Criterion::critical_energy;
+    const auto &names = Damage::criterion_names();
+    growth.criterion =
+      texts.criterion == "automatic"
+        ? Damage::Criterion::critical_energy
+        : static_cast<Damage::Criterion>(
+            std::find(names.begin(), names.end(), texts.criterion) -
+            names.begin());
     if (coupling.model == Coupling::Model::bond_based &&
-        texts.criterion == "critical energy")
+        texts.criterion != "automatic" &&
+        growth.criterion != Damage::Criterion::critical_stretch)
       errors.add_parameter("Cracks / criterion",
-                           "'critical energy' with model 'bond based'",
+                           "'" + texts.criterion + "' with model 'bond based'",
                            "critical stretch",
                            "Bonds of this model break by their stretch.");
     if (coupling.model == Coupling::Model::bond_based)
@@ -119,12 +140,133 @@ namespace Perimorph::Application
                            "Or 'growth = segments' with load steps.");
   }
 
+  template <int dim>
+  void
+  SimulationParameters<dim>::read_bond_limits(const ParameterTexts      &texts,
+                                              Base::InputErrorCollector &errors)
+  {
+    using Damage::Criterion;
+    auto &limits             = growth.limits;
+    limits.fracture_energy   = texts.fracture_energy;
+    limits.calibration       = texts.energy_calibration;
+    limits.stretch           = texts.critical_stretch;
+    limits.bond_strain       = texts.critical_bond_strain;
+    limits.equivalent_strain = texts.critical_equivalent_strain;
+    limits.volumetric_strain = texts.critical_volumetric_strain;
+    limits.tensile_strength  = texts.tensile_strength;
+    limits.cohesion          = texts.cohesion;
+    limits.friction_angle    = texts.friction_angle;
+
+    struct Entry
+    {
+      std::string name;
+      double      value;
+      bool        used, required;
+    };
+    const auto is = [this](const Criterion criterion) {
+      return growth.criterion == criterion;
+    };
+    const bool stretch = is(Criterion::critical_stretch);
+    const bool given   = stretch && limits.stretch > 0.;
+    const bool by_energy =
+      (stretch && !given) || is(Criterion::critical_energy);
+    const bool        stress = is(Criterion::principal_stress);
+    const bool        bond   = is(Criterion::bond_strain);
+    const bool        equal  = is(Criterion::equivalent_strain);
+    const bool        volume = is(Criterion::volumetric_strain);
+    const std::string criterion =
+      Damage::criterion_names()[static_cast<int>(growth.criterion)];
+    for (const auto &entry : std::vector<Entry>{
+           {"fracture energy", limits.fracture_energy, by_energy, by_energy},
+           {"energy calibration", limits.calibration, by_energy, false},
+           {"critical stretch", limits.stretch, stretch, false},
+           {"critical bond strain", limits.bond_strain, bond, bond},
+           {"critical equivalent strain",
+            limits.equivalent_strain,
+            equal,
+            equal},
+           {"critical volumetric strain",
+            limits.volumetric_strain,
+            volume,
+            volume},
+           {"tensile strength", limits.tensile_strength, stress, stress},
+           {"cohesion", limits.cohesion, stress, false},
+           {"friction angle",
+            limits.friction_angle,
+            stress && limits.cohesion > 0.,
+            false}})
+      if (entry.required && !(entry.value > 0.))
+        errors.add_parameter(
+          "Cracks / " + entry.name,
+          "nothing or 0",
+          "a number > 0",
+          "The criterion is '" + criterion + "'" +
+            (stretch ? "; or give a 'critical stretch'." : "."));
+      else if (!entry.used && entry.value > 0.)
+        {
+          std::ostringstream found;
+          found << entry.value << " with criterion '" << criterion << "'"
+                << (given ? " and a 'critical stretch'" : "");
+          errors.add_parameter("Cracks / " + entry.name,
+                               found.str(),
+                               "nothing",
+                               "The criterion does not ask for it.");
+        }
+  }
+
+  template <int dim>
+  void
+  SimulationParameters<dim>::read_protection(const ParameterTexts      &texts,
+                                             Base::InputErrorCollector &errors)
+  {
+    using Parameters::Feature;
+    using Parameters::FeatureKind;
+    auto &features = growth.protected_features;
+    features       = Parameters::parse_features("Cracks / protected regions",
+                                          texts.protected_regions,
+                                          dim,
+                                          errors);
+    for (const auto &feature : features)
+      if (feature.kind == FeatureKind::boundary ||
+          feature.kind == FeatureKind::volume)
+        errors.add_parameter(
+          "Cracks / protected regions",
+          "'" + feature.name + "'",
+          "point, segment, plane, box, ball",
+          feature.kind == FeatureKind::volume
+            ? "Volumes belong to 'Cracks / protected materials'."
+            : "Names belong to 'Cracks / protected boundaries'.");
+    const auto add = [&](const std::string &entry,
+                         const std::string &text,
+                         const FeatureKind  kind) {
+      for (const auto &name :
+           Parameters::parse_names("Cracks / " + entry, text, errors))
+        features.push_back(Feature{kind, name, {}});
+    };
+    add("protected boundaries",
+        texts.protected_boundaries,
+        FeatureKind::boundary);
+    add("protected materials", texts.protected_materials, FeatureKind::volume);
+  }
+
   template void
   SimulationParameters<2>::read_cracks(const ParameterTexts &,
                                        Base::InputErrorCollector &);
   template void
   SimulationParameters<3>::read_cracks(const ParameterTexts &,
                                        Base::InputErrorCollector &);
+  template void
+  SimulationParameters<2>::read_bond_limits(const ParameterTexts &,
+                                            Base::InputErrorCollector &);
+  template void
+  SimulationParameters<3>::read_bond_limits(const ParameterTexts &,
+                                            Base::InputErrorCollector &);
+  template void
+  SimulationParameters<2>::read_protection(const ParameterTexts &,
+                                           Base::InputErrorCollector &);
+  template void
+  SimulationParameters<3>::read_protection(const ParameterTexts &,
+                                           Base::InputErrorCollector &);
   template void
   SimulationParameters<2>::check_bond_breaking(const ParameterTexts &,
                                                Base::InputErrorCollector &);

@@ -26,6 +26,8 @@ namespace Perimorph::Application
       place_cracks();
       region = make_region_map(*mesh, parameters.region);
       check_cracks();
+      is_protected =
+        protected_nodes(*mesh, region, parameters.growth.protected_features);
     });
     errors.collect([&]() {
       supports =
@@ -54,8 +56,7 @@ namespace Perimorph::Application
       {
         breaking_rule = Damage::make_breaking_rule<dim>(
           parameters.growth.criterion,
-          parameters.growth.fracture_energy,
-          parameters.growth.calibration,
+          parameters.growth.limits,
           parameters.state,
           parameters.coupling.scheme == Coupling::Scheme::consistent
             ? Damage::FamilyShape::cells

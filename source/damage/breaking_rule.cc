@@ -1,4 +1,5 @@
 #include <perimorph/damage/breaking_rule.h>
+#include <perimorph/damage/particle_rules.h>
 
 #include <cmath>
 #include <limits>
@@ -12,27 +13,29 @@ namespace Perimorph::Damage
     class CriticalStretch : public BreakingRule
     {
     public:
-      CriticalStretch(const double                fracture_energy,
-                      const double                calibration,
-                      const Materials::PlaneState state)
-        : fracture_energy(fracture_energy /
-                          (calibration > 0. ? calibration : 1.))
+      CriticalStretch(const Limits &limits, const Materials::PlaneState state)
+        : fracture_energy(limits.fracture_energy /
+                          (limits.calibration > 0. ? limits.calibration : 1.))
+        , stretch(limits.stretch)
         , state(state)
       {}
 
       double
       load_factor(const BondState &bond) const override
       {
-        return bond.extension > 0. ? critical_stretch(fracture_energy,
-                                                      bond.youngs_modulus,
-                                                      bond.horizon,
-                                                      state) *
-                                       bond.length / bond.extension
-                                   : never;
+        if (!(bond.extension > 0.))
+          return never;
+        const double critical = stretch > 0.
+                                  ? stretch
+                                  : critical_stretch(fracture_energy,
+                                                     bond.youngs_modulus,
+                                                     bond.horizon,
+                                                     state);
+        return critical * bond.length / bond.extension;
       }
 
     private:
-      const double                fracture_energy;
+      const double                fracture_energy, stretch;
       const Materials::PlaneState state;
     };
 
@@ -72,37 +75,45 @@ namespace Perimorph::Damage
   criterion_names()
   {
     static const std::vector<std::string> names = {"critical stretch",
-                                                   "critical energy"};
+                                                   "critical energy",
+                                                   "bond strain",
+                                                   "equivalent strain",
+                                                   "volumetric strain",
+                                                   "maximum principal stress"};
     return names;
+  }
+
+  bool
+  sees_particles(const Criterion criterion)
+  {
+    return criterion != Criterion::critical_stretch &&
+           criterion != Criterion::critical_energy;
   }
 
   template <int dim>
   std::unique_ptr<BreakingRule>
   make_breaking_rule(const Criterion             criterion,
-                     const double                fracture_energy,
-                     const double                calibration,
+                     const Limits               &limits,
                      const Materials::PlaneState state,
                      const FamilyShape           shape)
   {
     if (criterion == Criterion::critical_stretch)
-      return std::make_unique<CriticalStretch>(fracture_energy,
-                                               calibration,
-                                               state);
-    return std::make_unique<CriticalEnergy<dim>>(fracture_energy,
-                                                 calibration,
-                                                 shape);
+      return std::make_unique<CriticalStretch>(limits, state);
+    if (criterion == Criterion::critical_energy)
+      return std::make_unique<CriticalEnergy<dim>>(limits.fracture_energy,
+                                                   limits.calibration,
+                                                   shape);
+    return make_particle_rule(criterion, limits);
   }
 
   template std::unique_ptr<BreakingRule>
   make_breaking_rule<2>(Criterion,
-                        double,
-                        double,
+                        const Limits &,
                         Materials::PlaneState,
                         FamilyShape);
   template std::unique_ptr<BreakingRule>
   make_breaking_rule<3>(Criterion,
-                        double,
-                        double,
+                        const Limits &,
                         Materials::PlaneState,
                         FamilyShape);
 } // namespace Perimorph::Damage

@@ -170,11 +170,11 @@ namespace Perimorph::Mesh
 
   template <int dim>
   FeatureDistance<dim>::FeatureDistance(const Parameters::Feature  &feature,
-                                        const DistributedMesh<dim> &mesh)
+                                        const DistributedMesh<dim> &mesh,
+                                        const std::string          &used_by)
     : feature(feature)
   {
-    const std::string used_by = "parameter 'Peridynamics / around'";
-    const auto       &nodal   = mesh.nodal();
+    const auto &nodal = mesh.nodal();
     if (feature.kind == Parameters::FeatureKind::boundary)
       {
         std::vector<typename Facets::Facet> list;

@@ -31,4 +31,13 @@ namespace Perimorph::Application
                        const Mesh::RegionMap          &region,
                        const Bonds::CrackSet<dim>     &cracks,
                        const std::vector<std::string> &names);
+
+  /// Nodes whose bonds never break: those in volumes, boxes and balls, and
+  /// those within one horizon of all other features.
+  /// @throws Base::InputError  a boundary or volume that is not in the mesh
+  template <int dim>
+  std::vector<bool>
+  protected_nodes(const Mesh::DistributedMesh<dim>       &mesh,
+                  const Mesh::RegionMap                  &region,
+                  const std::vector<Parameters::Feature> &features);
 } // namespace Perimorph::Application

@@ -345,6 +345,7 @@ namespace Perimorph::Application
     // Breaking of bonds.
     Bonds::BrokenBonds                    broken;
     std::unique_ptr<Damage::BreakingRule> breaking_rule;
+    std::vector<bool>                     is_protected; ///< nodes
     Output::CsvWriter                    *broken_table   = nullptr;
     unsigned int                          n_events       = 0;
     unsigned int                          parts_at_start = 1;

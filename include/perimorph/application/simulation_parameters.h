@@ -44,9 +44,13 @@ namespace Perimorph::Application
     std::string pre_cracks,
       crack_treatment = "consistent", crack_growth = "none",
       advance_length = "1 horizons", growth_control = "load steps",
-      criterion                  = "automatic";
-    double       fracture_energy = 0., energy_calibration = 0.;
+      criterion            = "automatic";
+    double fracture_energy = 0., energy_calibration = 0., critical_stretch = 0.,
+           critical_bond_strain = 0., critical_equivalent_strain = 0.,
+           critical_volumetric_strain = 0., tensile_strength = 0.,
+           cohesion = 0., friction_angle = 0.;
     unsigned int maximum_advances = 1000;
+    std::string  protected_boundaries, protected_materials, protected_regions;
 
     std::string symmetry, displacement, mean_displacement, rigid_plate,
       traction, pressure, follower_pressure, body_force, point_displacement,
@@ -96,10 +100,12 @@ namespace Perimorph::Application
     bool               bonds  = false; ///< else by segments
     bool               events = false; ///< else by load steps
     Damage::Criterion  criterion;
-    double             calibration; ///< kappa; 0: automatic
+    Damage::Limits     limits; ///< of bonds
     double             fracture_energy;
     Parameters::Length advance;
     unsigned int       maximum_advances;
+    /// Bonds with an end there never break.
+    std::vector<Parameters::Feature> protected_features;
   };
 
   /// Everything a run needs to know, checked and typed.
@@ -190,6 +196,13 @@ namespace Perimorph::Application
     void
     check_bond_breaking(const ParameterTexts      &texts,
                         Base::InputErrorCollector &errors);
+    /// What the criterion of bonds needs is given, and nothing else.
+    void
+    read_bond_limits(const ParameterTexts      &texts,
+                     Base::InputErrorCollector &errors);
+    void
+    read_protection(const ParameterTexts      &texts,
+                    Base::InputErrorCollector &errors);
 
     Parameters::Constants constants;
   };

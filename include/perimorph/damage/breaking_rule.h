@@ -2,6 +2,8 @@
 
 #include <perimorph/damage/thresholds.h>
 
+#include <deal.II/base/symmetric_tensor.h>
+
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,6 +20,14 @@ namespace Perimorph::Damage
     double horizon;        ///< mean of both ends [length]
     double horizon_ratio;  ///< mean of horizon over spacing of both ends [-]
     double youngs_modulus; ///< mean of both ends
+
+    // Means of both ends, only where sees_particles(); the third direction of
+    // a 2D model included.
+    dealii::SymmetricTensor<2, 3> strain;
+    dealii::SymmetricTensor<2, 3> stress;
+    dealii::Tensor<1, 3>          direction; ///< e
+    dealii::Tensor<1, 3> relative; ///< eta / |xi| without the mean rotation
+    double               largest_dilatation; ///< tr(strain) of either end
   };
 
   /// When a bond breaks: one rule, one bond, no memory.
@@ -34,22 +44,42 @@ namespace Perimorph::Damage
 
   enum class Criterion
   {
-    critical_stretch, ///< extension / length >= s_c
-    critical_energy   ///< energy / (V_i V_j) >= w_0 / kappa
+    critical_stretch,  ///< extension / length >= s_c
+    critical_energy,   ///< energy / (V_i V_j) >= w_0 / kappa
+    bond_strain,       ///< deviatoric_bond_strain() under tension
+    equivalent_strain, ///< of the mean strain
+    volumetric_strain, ///< of the mean strain
+    principal_stress   ///< of the mean stress, with Mohr-Coulomb
   };
 
   /// Names as in the parameter file, in the order of the enumeration.
   const std::vector<std::string> &
   criterion_names();
 
-  /// @param fracture_energy  G_c > 0
-  /// @param calibration  kappa > 0 by which the energy of a bond at break is
-  ///        divided; 0: lattice_trapping() for the energy, 1 for the stretch
+  /// Whether bonds break by strain or stress of the particles at their ends.
+  bool
+  sees_particles(Criterion criterion);
+
+  /// What bonds bear. Zeros where a criterion does not ask.
+  struct Limits
+  {
+    double fracture_energy = 0.; ///< G_c
+    /// kappa by which G_c is divided for the energy of a bond at break; 0:
+    /// lattice_trapping() for the energy, 1 for the stretch.
+    double calibration       = 0.;
+    double stretch           = 0.; ///< s_c; 0: from G_c
+    double bond_strain       = 0.;
+    double equivalent_strain = 0.;
+    double volumetric_strain = 0.;
+    double tensile_strength  = 0.; ///< f_t [stress]
+    double cohesion          = 0.; ///< C [stress]; 0: no failure by shear
+    double friction_angle    = 0.; ///< phi [degrees], less than 90
+  };
+
   template <int dim>
   std::unique_ptr<BreakingRule>
   make_breaking_rule(Criterion             criterion,
-                     double                fracture_energy,
-                     double                calibration,
+                     const Limits         &limits,
                      Materials::PlaneState state,
                      FamilyShape           shape);
 } // namespace Perimorph::Damage

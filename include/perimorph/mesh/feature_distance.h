@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace Perimorph::Mesh
@@ -24,9 +25,12 @@ namespace Perimorph::Mesh
   class FeatureDistance
   {
   public:
+    /// @param used_by  entry of the feature, for messages
     /// @throws Base::InputError  a boundary or volume that is not in the mesh
-    FeatureDistance(const Parameters::Feature  &feature,
-                    const DistributedMesh<dim> &mesh);
+    FeatureDistance(
+      const Parameters::Feature  &feature,
+      const DistributedMesh<dim> &mesh,
+      const std::string &used_by = "parameter 'Peridynamics / around'");
     ~FeatureDistance();
     FeatureDistance(FeatureDistance &&) noexcept;
 

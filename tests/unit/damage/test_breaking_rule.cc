@@ -9,6 +9,8 @@ namespace Perimorph::Damage
 {
   namespace
   {
+    using Materials::PlaneState;
+
     constexpr double G_c = 0.37;
 
     BondState
@@ -28,9 +30,11 @@ namespace Perimorph::Damage
     std::unique_ptr<BreakingRule>
     rule(const Criterion criterion, const double calibration = 0.)
     {
+      Limits limits;
+      limits.fracture_energy = G_c;
+      limits.calibration     = calibration;
       return make_breaking_rule<2>(criterion,
-                                   G_c,
-                                   calibration,
+                                   limits,
                                    Materials::PlaneState::plane_stress,
                                    FamilyShape::ball);
     }
@@ -50,6 +54,21 @@ namespace Perimorph::Damage
     EXPECT_NEAR(rule(Criterion::critical_stretch, 4.)->load_factor(state),
                 1.,
                 1e-14);
+  }
+
+  TEST(BreakingRule, stretch_that_is_given)
+  {
+    Limits limits;
+    limits.stretch   = 0.02;
+    const auto rule  = make_breaking_rule<3>(Criterion::critical_stretch,
+                                            limits,
+                                            PlaneState::three_dimensional,
+                                            FamilyShape::cells);
+    auto       state = bond();
+    state.extension  = 0.01 * state.length;
+    EXPECT_NEAR(rule->load_factor(state), 2., 1e-14);
+    state.extension = -0.03 * state.length;
+    EXPECT_TRUE(std::isinf(rule->load_factor(state)));
   }
 
   TEST(BreakingRule, energy_at_its_limit)
