@@ -201,7 +201,12 @@ namespace Perimorph::Application
               wider.features.push_back(feature);
             }
         const auto before = method.region.alpha;
-        grow_core(method, wider);
+        // Where cells grow, families reach further than the core around them.
+        for (unsigned int k = 0; k < 6 && before == method.region.alpha; ++k)
+          {
+            grow_core(method, wider);
+            wider.core_size.value *= 1.5;
+          }
         if (before == method.region.alpha)
           throw Base::SolveError(
             "bonds would break where elements carry a part, and the core "
