@@ -320,7 +320,9 @@ namespace Perimorph::Application
         for (const unsigned int node : bond.nodes)
           numbers.push_back(point_of_node[node]);
         numbers.push_back(bond.event);
+        numbers.push_back(bond.teeth);
       }
+    checkpoint.numbers["teeth of bonds"] = broken.n_teeth();
   }
 
   template <int dim>
@@ -330,11 +332,13 @@ namespace Perimorph::Application
   {
     const auto        &node_of_point = mesh.node_of_file_point();
     const auto        &numbers       = checkpoint.arrays.at("broken bonds");
-    Bonds::BrokenBonds broken;
-    for (std::size_t k = 0; k + 2 < numbers.size(); k += 3)
-      broken.add(node_of_point[static_cast<unsigned int>(numbers[k])],
-                 node_of_point[static_cast<unsigned int>(numbers[k + 1])],
-                 static_cast<unsigned int>(numbers[k + 2]));
+    Bonds::BrokenBonds broken(
+      static_cast<unsigned int>(checkpoint.numbers.at("teeth of bonds")));
+    for (std::size_t k = 0; k + 3 < numbers.size(); k += 4)
+      for (unsigned int tooth = 0; tooth < numbers[k + 3]; ++tooth)
+        broken.add(node_of_point[static_cast<unsigned int>(numbers[k])],
+                   node_of_point[static_cast<unsigned int>(numbers[k + 1])],
+                   static_cast<unsigned int>(numbers[k + 2]));
     return broken;
   }
 

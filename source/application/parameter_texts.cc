@@ -181,18 +181,19 @@ namespace Perimorph::Application
       "bonds of the core break one by one where 'criterion' says; cracks "
       "start, "
       "branch and meet freely, but follow the rows of regular meshes (linear "
-      "problems, correspondence model).",
+      "problems).",
       choice({"none", "segments", "bonds"}));
     prm.add_parameter(
       "criterion",
       criterion,
       "Of growth = bonds: where a bond breaks. critical energy: its energy "
       "over the volumes of its ends is that of a crack of 'fracture energy'. "
-      "critical stretch: its stretch is, or is 'critical stretch'; load and "
-      "path depend more on the mesh. bond strain, equivalent strain, "
-      "volumetric strain, maximum principal stress: by strain or stress of "
-      "the particles at its ends; find where damage starts, but cracks become "
-      "wide bands. automatic: critical energy.",
+      "critical stretch: its stretch is, or is 'critical stretch'; with the "
+      "correspondence model load and path depend more on the mesh. bond "
+      "strain, equivalent strain, volumetric strain, maximum principal stress: "
+      "by strain or stress of the particles at its ends; find where damage "
+      "starts, but cracks become wide bands. automatic: critical energy; "
+      "model = bond based: critical stretch.",
       choice(automatic_or(Damage::criterion_names())));
     prm.add_parameter(
       "energy calibration",
@@ -205,6 +206,14 @@ namespace Perimorph::Application
       "2; "
       "coupling = energy blending: 1.75 to 1.26); critical stretch: 1.",
       Double(0.));
+    prm.add_parameter(
+      "softening teeth",
+      softening_teeth,
+      "Of growth = bonds with model = bond based: bonds soften from their "
+      "largest force to none at four times its stretch, in so many steps that "
+      "together take the same energy; cracks grow nearer to the fracture "
+      "energy. 1: bonds break at once.",
+      Integer(1));
     prm.add_parameter("fracture energy",
                       fracture_energy,
                       "G_c [stress * length]; energy per area of crack.",

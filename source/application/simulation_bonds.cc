@@ -2,7 +2,6 @@
 #include <perimorph/base/collective.h>
 #include <perimorph/base/log.h>
 #include <perimorph/coupling/bond_energies.h>
-#include <perimorph/coupling/broken_families.h>
 #include <perimorph/coupling/particle_states.h>
 
 #include <algorithm>
@@ -21,6 +20,10 @@ namespace Perimorph::Application
 
     /// A part of the body is more than debris above this share of its nodes.
     constexpr double large_part = 0.05;
+
+    /// Factor by which one event changes the energy of a body of which only a
+    /// mechanism is left.
+    constexpr double mechanism = 1e4;
 
     /// Means of the two ends; of the other one where one has lost its family.
     template <int dim>
@@ -103,11 +106,16 @@ namespace Perimorph::Application
     const auto &nodal = mesh->nodal();
     const auto  state = gather(method);
     const auto  energies =
-      Coupling::bond_energies(nodal,
-                              method.problem->correspondence_families(),
-                              materials.laws,
-                              state.displacement,
-                              communicator);
+      parameters.coupling.model == Coupling::Model::bond_based
+         ? Coupling::bond_energies(nodal,
+                                  method.problem->bonds(),
+                                  state.displacement,
+                                  communicator)
+         : Coupling::bond_energies(nodal,
+                                  method.problem->correspondence_families(),
+                                  materials.laws,
+                                  state.displacement,
+                                  communicator);
     const auto &alpha = method.region.alpha;
 
     // Nodes whose whole families are peridynamic: nothing else holds there what
@@ -154,13 +162,14 @@ namespace Perimorph::Application
           return materials.bond_constants[nodal.cell_material[cell]]
             .youngs_modulus;
         });
+        one.teeth_lost = broken.teeth_lost(i, j);
         if (!particles.empty())
           see_particles(particles[i], particles[j], xi, eta, one);
         loads.push_back({bond.nodes,
                          is_protected[i] || is_protected[j]
                            ? never
                            : breaking_rule->load_factor(one),
-                         bond.energy,
+                         bond.energy / (broken.n_teeth() - one.teeth_lost),
                          in_core[i] && in_core[j]});
       }
     return loads;
@@ -221,11 +230,7 @@ namespace Perimorph::Application
   unsigned int
   Simulation<dim>::n_parts(const Method &method, const State<dim> &loaded) const
   {
-    const auto parts =
-      Coupling::find_parts(mesh->nodal(),
-                           method.region.alpha,
-                           method.problem->correspondence_families(),
-                           communicator);
+    const auto                parts = method.problem->parts(method.region);
     std::vector<unsigned int> size;
     std::vector<bool>         is_loaded;
     for (unsigned int n = 0; n < parts.size(); ++n)
@@ -256,6 +261,7 @@ namespace Perimorph::Application
           for (int d = 0; d < dim; ++d)
             columns.push_back(std::string(1, "xyz"[d]) + end);
         columns.push_back("energy");
+        columns.push_back("share_left");
         broken_table = &open_table("broken_bonds.csv", columns);
       }
     const auto state = gather(method);
@@ -272,12 +278,14 @@ namespace Perimorph::Application
           for (int d = 0; d < dim; ++d)
             row.push_back(mesh->nodal().nodes[n][d]);
         row.push_back(bond.energy);
+        row.push_back(broken.share_left(bond.nodes[0], bond.nodes[1]));
         broken_table->write_row(row);
       }
     auto next = make_method(method.region, cracks);
     next.time = method.time;
     log << "  event " << n_events << ": " << bonds.size()
-        << " bonds break at load factor " << method.time << std::endl;
+        << (broken.n_teeth() > 1 ? " bonds soften" : " bonds break")
+        << " at load factor " << method.time << std::endl;
     const bool falls_apart = n_parts(next, state) > parts_at_start;
     result->set("counts", "events", n_events);
     result->set("counts", "bonds_broken_in_events", broken.size());
@@ -292,12 +300,28 @@ namespace Perimorph::Application
         return false;
       }
     const double before = potential_energy(method);
-    continue_from(method, next);
-    method = std::move(next);
-    released_energy += before - potential_energy(method);
-    if (falls_apart)
-      log << "  the body falls apart" << std::endl;
-    return !falls_apart;
+    try
+      {
+        continue_from(method, next);
+      }
+    catch (const Base::SolveError &error)
+      {
+        if (loads->empty())
+          throw;
+        // Loads move a mechanism without end, too.
+        log << "  the body falls apart: " << error.what() << std::endl;
+        return false;
+      }
+    method             = std::move(next);
+    const double after = potential_energy(method);
+    released_energy += before - after;
+    if (falls_apart || std::abs(after) * mechanism < std::abs(before) ||
+        std::abs(after) > mechanism * std::abs(before))
+      {
+        log << "  the body falls apart" << std::endl;
+        return false;
+      }
+    return true;
   }
 
   template <int dim>
@@ -348,9 +372,12 @@ namespace Perimorph::Application
   {
     while (n_events < parameters.growth.maximum_advances)
       {
-        const auto bonds = next_to_break(method, 1.);
+        auto bonds = next_to_break(method, 1.);
         if (bonds.empty())
           return true;
+        // Beyond its limit a bond stores more than breaking it takes.
+        for (auto &bond : bonds)
+          bond.energy *= bond.factor * bond.factor;
         const bool holds = break_bonds(method, bonds, step);
         ++step.number;
         on_step(step);

@@ -110,24 +110,21 @@ namespace Perimorph::Application
     const ParameterTexts      &texts,
     Base::InputErrorCollector &errors)
   {
-    const auto &names = Damage::criterion_names();
+    const bool  bond_based = coupling.model == Coupling::Model::bond_based;
+    const auto &names      = Damage::criterion_names();
+    growth.n_teeth         = bond_based ? texts.softening_teeth : 1;
     growth.criterion =
       texts.criterion == "automatic"
-        ? Damage::Criterion::critical_energy
+        ? (bond_based ? Damage::Criterion::critical_stretch
+                      : Damage::Criterion::critical_energy)
         : static_cast<Damage::Criterion>(
             std::find(names.begin(), names.end(), texts.criterion) -
             names.begin());
-    if (coupling.model == Coupling::Model::bond_based &&
-        texts.criterion != "automatic" &&
-        growth.criterion != Damage::Criterion::critical_stretch)
+    if (bond_based && growth.criterion != Damage::Criterion::critical_stretch)
       errors.add_parameter("Cracks / criterion",
                            "'" + texts.criterion + "' with model 'bond based'",
                            "critical stretch",
                            "Bonds of this model break by their stretch.");
-    if (coupling.model == Coupling::Model::bond_based)
-      errors.add_parameter("Cracks / growth",
-                           "'bonds' with model 'bond based'",
-                           "model = correspondence");
     if (coupling.scheme == Coupling::Scheme::force_blending)
       errors.add_parameter("Cracks / growth",
                            "'bonds' with coupling 'force blending'",

@@ -4,6 +4,7 @@
 #include <perimorph/application/stability_advice.h>
 #include <perimorph/base/log.h>
 #include <perimorph/base/name_help.h>
+#include <perimorph/damage/saw_tooth.h>
 #include <perimorph/materials/material_factory.h>
 
 #include <algorithm>
@@ -54,13 +55,20 @@ namespace Perimorph::Application
     warn_if_nothing_happens();
     if (parameters.growth.bonds)
       {
-        breaking_rule = Damage::make_breaking_rule<dim>(
-          parameters.growth.criterion,
-          parameters.growth.limits,
-          parameters.state,
-          parameters.coupling.scheme == Coupling::Scheme::consistent
-            ? Damage::FamilyShape::cells
-            : Damage::FamilyShape::ball);
+        const auto &growth = parameters.growth;
+        broken             = Bonds::BrokenBonds(growth.n_teeth);
+        breaking_rule =
+          parameters.coupling.model == Coupling::Model::bond_based
+            ? Damage::make_saw_tooth_rule<dim>(growth.limits,
+                                               growth.n_teeth,
+                                               parameters.state)
+            : Damage::make_breaking_rule<dim>(growth.criterion,
+                                              growth.limits,
+                                              parameters.state,
+                                              parameters.coupling.scheme ==
+                                                  Coupling::Scheme::consistent
+                                                ? Damage::FamilyShape::cells
+                                                : Damage::FamilyShape::ball);
         warn_of_bond_criteria();
       }
     auto ratios = std::make_pair(parameters.material.poissons_ratio,

@@ -19,12 +19,19 @@ namespace Perimorph::Bonds
                    const unsigned int second,
                    const unsigned int event)
   {
-    if (!keys.insert(key(first, second)).second)
+    const auto [entry, is_new] =
+      place.emplace(key(first, second), bonds.size());
+    if (is_new)
+      {
+        bonds.push_back(
+          {{{std::min(first, second), std::max(first, second)}}, event, 0});
+        ++counts[first];
+        ++counts[second];
+      }
+    unsigned int &teeth = bonds[entry->second].teeth;
+    if (teeth == n_teeth_of_bond)
       return false;
-    bonds.push_back(
-      {{{std::min(first, second), std::max(first, second)}}, event});
-    ++counts[first];
-    ++counts[second];
+    n_broken += ++teeth == n_teeth_of_bond ? 1 : 0;
     return true;
   }
 
@@ -32,7 +39,23 @@ namespace Perimorph::Bonds
   BrokenBonds::contains(const unsigned int first,
                         const unsigned int second) const
   {
-    return keys.count(key(first, second)) > 0;
+    return teeth_lost(first, second) == n_teeth_of_bond;
+  }
+
+  unsigned int
+  BrokenBonds::teeth_lost(const unsigned int first,
+                          const unsigned int second) const
+  {
+    const auto entry = place.find(key(first, second));
+    return entry == place.end() ? 0 : bonds[entry->second].teeth;
+  }
+
+  double
+  BrokenBonds::share_left(const unsigned int first,
+                          const unsigned int second) const
+  {
+    return double(n_teeth_of_bond - teeth_lost(first, second)) /
+           n_teeth_of_bond;
   }
 
   unsigned int

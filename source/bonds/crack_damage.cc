@@ -33,12 +33,11 @@ namespace Perimorph::Bonds
           if (k != n)
             {
               volume += mesh.volume[k];
-              if (cracks.crosses(mesh.nodes[n], mesh.nodes[k]) ||
-                  broken.contains(n, k))
-                {
-                  hidden += mesh.volume[k];
-                  ++n_hidden;
-                }
+              const double lost = cracks.crosses(mesh.nodes[n], mesh.nodes[k])
+                                    ? 1.
+                                    : 1. - broken.share_left(n, k);
+              hidden += lost * mesh.volume[k];
+              n_hidden += lost == 1. ? 1 : 0;
             }
         damage[n] = volume > 0. ? hidden / volume : 0.;
       }

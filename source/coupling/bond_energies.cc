@@ -1,4 +1,5 @@
 #include <perimorph/coupling/bond_energies.h>
+#include <perimorph/peridynamics/bond_based.h>
 #include <perimorph/peridynamics/correspondence.h>
 
 #include <deal.II/base/mpi.h>
@@ -24,6 +25,21 @@ namespace Perimorph::Coupling
         else
           halves[++last] = halves[k];
       halves.resize(std::min(halves.size(), last + 1));
+    }
+
+    std::vector<BondEnergy>
+    of_all_ranks(const std::vector<Half> &halves, const MPI_Comm communicator)
+    {
+      std::vector<Half> all;
+      for (const auto &part :
+           dealii::Utilities::MPI::all_gather(communicator, halves))
+        all.insert(all.end(), part.begin(), part.end());
+      merge(all);
+      std::vector<BondEnergy> result;
+      result.reserve(all.size());
+      for (const auto &half : all)
+        result.push_back({half.first, half.second});
+      return result;
     }
   } // namespace
 
@@ -70,16 +86,28 @@ namespace Perimorph::Coupling
                               0.5 * families.weight[p] * (forces[b] * eta[b])});
           }
       }
+    return of_all_ranks(halves, communicator);
+  }
+
+  template <int dim>
+  std::vector<BondEnergy>
+  bond_energies(const Mesh::NodalMesh<dim>                &mesh,
+                const BondSet                             &bonds,
+                const std::vector<dealii::Tensor<1, dim>> &displacement,
+                const MPI_Comm                             communicator)
+  {
     std::vector<Half> all;
-    for (const auto &part :
-         dealii::Utilities::MPI::all_gather(communicator, halves))
-      all.insert(all.end(), part.begin(), part.end());
-    merge(all);
-    std::vector<BondEnergy> result;
-    result.reserve(all.size());
-    for (const auto &half : all)
-      result.push_back({half.first, half.second});
-    return result;
+    for (std::size_t b = 0; b < bonds.nodes.size(); ++b)
+      {
+        const auto [i, j]               = bonds.nodes[b];
+        const dealii::Tensor<1, dim> xi = mesh.nodes[j] - mesh.nodes[i];
+        all.push_back(
+          {{{std::min(i, j), std::max(i, j)}},
+           Peridynamics::small_bond_energy(bonds.stiffness[b],
+                                           xi,
+                                           displacement[j] - displacement[i])});
+      }
+    return of_all_ranks(all, communicator);
   }
 
 #define PERIMORPH_INSTANTIATE(dim)                         \
@@ -87,6 +115,11 @@ namespace Perimorph::Coupling
     const Mesh::NodalMesh<dim> &,                          \
     const Peridynamics::FamilySet<dim> &,                  \
     const typename Fem::ElasticCells<dim>::MaterialList &, \
+    const std::vector<dealii::Tensor<1, dim>> &,           \
+    MPI_Comm);                                             \
+  template std::vector<BondEnergy> bond_energies<dim>(     \
+    const Mesh::NodalMesh<dim> &,                          \
+    const BondSet &,                                       \
     const std::vector<dealii::Tensor<1, dim>> &,           \
     MPI_Comm);
 

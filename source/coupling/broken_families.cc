@@ -123,6 +123,22 @@ namespace Perimorph::Coupling
              const Peridynamics::FamilySet<dim> &families,
              const MPI_Comm                      communicator)
   {
+    std::vector<std::array<unsigned int, 2>> bonds;
+    bonds.reserve(families.n_bonds());
+    for (std::size_t p = 0; p < families.n_particles(); ++p)
+      for (std::size_t b = families.offsets[p]; b < families.offsets[p + 1];
+           ++b)
+        bonds.push_back({{families.node[p], families.neighbor[b]}});
+    return find_parts(mesh, alpha, bonds, communicator);
+  }
+
+  template <int dim>
+  std::vector<unsigned int>
+  find_parts(const Mesh::NodalMesh<dim>                     &mesh,
+             const std::vector<double>                      &alpha,
+             const std::vector<std::array<unsigned int, 2>> &bonds,
+             const MPI_Comm                                  communicator)
+  {
     std::vector<unsigned int> parent(mesh.n_nodes());
     std::iota(parent.begin(), parent.end(), 0u);
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
@@ -134,10 +150,8 @@ namespace Perimorph::Coupling
           for (const unsigned int n : mesh.cells[c])
             join(parent, mesh.cells[c][0], n);
       }
-    for (std::size_t p = 0; p < families.n_particles(); ++p)
-      for (std::size_t b = families.offsets[p]; b < families.offsets[p + 1];
-           ++b)
-        join(parent, families.node[p], families.neighbor[b]);
+    for (const auto &[first, second] : bonds)
+      join(parent, first, second);
     // Every rank knows its own families: the smallest label wins until nothing
     // changes.
     for (bool changes = true; changes;)
@@ -175,6 +189,11 @@ namespace Perimorph::Coupling
     const Mesh::NodalMesh<dim> &,                         \
     const std::vector<double> &,                          \
     const Peridynamics::FamilySet<dim> &,                 \
+    MPI_Comm);                                            \
+  template std::vector<unsigned int> find_parts<dim>(     \
+    const Mesh::NodalMesh<dim> &,                         \
+    const std::vector<double> &,                          \
+    const std::vector<std::array<unsigned int, 2>> &,     \
     MPI_Comm);
 
   PERIMORPH_INSTANTIATE(2)

@@ -1,6 +1,7 @@
 #include <perimorph/base/collective.h>
 #include <perimorph/base/point_cloud.h>
 #include <perimorph/coupling/bond_term.h>
+#include <perimorph/coupling/broken_bond_set.h>
 #include <perimorph/coupling/broken_families.h>
 #include <perimorph/coupling/cell_part_term.h>
 #include <perimorph/coupling/correspondence_term.h>
@@ -160,7 +161,7 @@ namespace Perimorph::Coupling
     else if (parameters.model == Model::correspondence)
       make_correspondence(region, parameters, cracks, broken, progress);
     else
-      make_bonds(region, parameters, cracks, progress);
+      make_bonds(region, parameters, cracks, broken, progress);
 
     all_cells = std::make_unique<Fem::ElasticCells<dim>>(mesh.nodal(),
                                                          *node_partition,
@@ -240,7 +241,8 @@ namespace Perimorph::Coupling
   template <int dim>
   void
   CoupledProblem<dim>::ground_loose_parts(
-    const std::vector<unsigned int> &parts)
+    const std::vector<unsigned int> &parts,
+    const std::vector<bool>         &more)
   {
     std::vector<unsigned int> size;
     for (const unsigned int part : parts)
@@ -248,7 +250,7 @@ namespace Perimorph::Coupling
         size.resize(std::max<std::size_t>(size.size(), part + 1), 0);
         ++size[part];
       }
-    if (size.size() == 1)
+    if (size.size() == 1 && more.empty())
       return;
     const unsigned int largest =
       std::max_element(size.begin(), size.end()) - size.begin();
@@ -258,7 +260,8 @@ namespace Perimorph::Coupling
     for (unsigned int n = 0; n < parts.size(); ++n)
       {
         mean_spacing += mesh.nodal().spacing[n] / parts.size();
-        if (parts[n] != largest && mesh.nodal().owns_node(n))
+        if ((parts[n] != largest || (!more.empty() && more[n])) &&
+            mesh.nodal().owns_node(n))
           loose.push_back(node_partition->local(n));
       }
     contributions.push_back(std::make_unique<GroundingTerm<dim>>(
@@ -272,6 +275,7 @@ namespace Perimorph::Coupling
   CoupledProblem<dim>::make_bonds(const Mesh::RegionMap      &region,
                                   const CouplingParameters   &parameters,
                                   const Bonds::CrackSet<dim> &cracks,
+                                  const Bonds::BrokenBonds   &broken,
                                   const Progress             &progress)
   {
     const auto &nodal      = mesh.nodal();
@@ -294,7 +298,10 @@ namespace Perimorph::Coupling
                                     progress,
                                     cracks,
                                     parameters.crack_rule);
+      if (!broken.empty())
+        break_bonds(nodal, broken, coupling);
     });
+    bond_set             = coupling.bonds;
     cracked              = coupling.cracked;
     local_counts.bonds   = coupling.bonds.nodes.size();
     local_counts.dropped = coupling.bonds.n_dropped;
@@ -329,6 +336,13 @@ namespace Perimorph::Coupling
         std::make_unique<CellPartTerm<dim>>(*node_partition,
                                             std::move(coupling.parts),
                                             std::move(coupling.part_tensors)));
+    if (broken.empty())
+      return;
+    std::vector<bool> lost(nodal.n_nodes(), false);
+    for (const auto &bond : broken.list())
+      if (bond.teeth == broken.n_teeth())
+        lost[bond.nodes[0]] = lost[bond.nodes[1]] = true;
+    ground_loose_parts(parts(region), lost);
   }
 
   template <int dim>
@@ -482,6 +496,21 @@ namespace Perimorph::Coupling
             dynamic_cast<const CorrespondenceTerm<dim> *>(term.get()))
         return families->global_families(*node_partition);
     return {};
+  }
+
+  template <int dim>
+  std::vector<unsigned int>
+  CoupledProblem<dim>::parts(const Mesh::RegionMap &region) const
+  {
+    return bond_set.nodes.empty() && !families.empty()
+             ? find_parts(mesh.nodal(),
+                          region.alpha,
+                          correspondence_families(),
+                          mesh.communicator())
+             : find_parts(mesh.nodal(),
+                          region.alpha,
+                          bond_set.nodes,
+                          mesh.communicator());
   }
 
   template <int dim>

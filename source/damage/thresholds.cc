@@ -1,3 +1,4 @@
+#include <perimorph/bonds/bond_search.h>
 #include <perimorph/damage/thresholds.h>
 #include <perimorph/peridynamics/bond_based.h>
 
@@ -32,6 +33,34 @@ namespace Perimorph::Damage
 
   template <int dim>
   double
+  critical_stretch_of_lattice(const double                fracture_energy,
+                              const double                youngs_modulus,
+                              const double                horizon,
+                              const double                horizon_ratio,
+                              const Materials::PlaneState state)
+  {
+    // sum of beta |xi|^2 over the family, spacing 1.
+    const int reach   = static_cast<int>(horizon_ratio + 0.5);
+    const int z_reach = dim == 3 ? reach : 0;
+    double    sum     = 0.;
+    for (int x = -reach; x <= reach; ++x)
+      for (int y = -reach; y <= reach; ++y)
+        for (int z = -z_reach; z <= z_reach; ++z)
+          {
+            const double square = x * x + y * y + z * z;
+            sum += Bonds::volume_factor(horizon_ratio, 1., std::sqrt(square)) *
+                   square;
+          }
+    const double spacing = horizon / horizon_ratio;
+    return critical_stretch_of_node<dim>(
+      fracture_energy,
+      Peridynamics::calibration_factor<dim>(horizon_ratio) *
+        Peridynamics::micromodulus(youngs_modulus, horizon, state) * sum *
+        std::pow(spacing, dim + 2));
+  }
+
+  template <int dim>
+  double
   critical_energy_density(const double fracture_energy, const double horizon)
   {
     return dim == 2 ? 1.5 * fracture_energy / std::pow(horizon, 3)
@@ -51,6 +80,18 @@ namespace Perimorph::Damage
   critical_stretch_of_node<2>(double, double);
   template double
   critical_stretch_of_node<3>(double, double);
+  template double
+  critical_stretch_of_lattice<2>(double,
+                                 double,
+                                 double,
+                                 double,
+                                 Materials::PlaneState);
+  template double
+  critical_stretch_of_lattice<3>(double,
+                                 double,
+                                 double,
+                                 double,
+                                 Materials::PlaneState);
   template double
   critical_energy_density<2>(double, double);
   template double

@@ -49,7 +49,7 @@ namespace Perimorph::Application
            critical_bond_strain = 0., critical_equivalent_strain = 0.,
            critical_volumetric_strain = 0., tensile_strength = 0.,
            cohesion = 0., friction_angle = 0.;
-    unsigned int maximum_advances = 1000;
+    unsigned int maximum_advances = 1000, softening_teeth = 6;
     std::string  protected_boundaries, protected_materials, protected_regions;
 
     std::string symmetry, displacement, mean_displacement, rigid_plate,
@@ -100,7 +100,8 @@ namespace Perimorph::Application
     bool               bonds  = false; ///< else by segments
     bool               events = false; ///< else by load steps
     Damage::Criterion  criterion;
-    Damage::Limits     limits; ///< of bonds
+    Damage::Limits     limits;      ///< of bonds
+    unsigned int       n_teeth = 1; ///< of each bond
     double             fracture_energy;
     Parameters::Length advance;
     unsigned int       maximum_advances;

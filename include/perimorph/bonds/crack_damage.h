@@ -10,6 +10,7 @@ namespace Perimorph::Bonds
 {
   /// Damage of each particle: the volume in its horizon that cracks hide from
   /// it, or to which its bonds are broken, over the volume in its horizon [-].
+  /// Bonds that soften count with the share of the stiffness they lost.
   /// @param alpha  particles are where it is positive
   /// @param[out] n_hidden  pairs of particles and nodes that cracks or broken
   /// bonds

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <perimorph/coupling/bond_set.h>
 #include <perimorph/fem/elastic_cells.h>
 #include <perimorph/peridynamics/family_set.h>
 
@@ -28,6 +29,17 @@ namespace Perimorph::Coupling
   bond_energies(const Mesh::NodalMesh<dim>                          &mesh,
                 const Peridynamics::FamilySet<dim>                  &families,
                 const typename Fem::ElasticCells<dim>::MaterialList &laws,
+                const std::vector<dealii::Tensor<1, dim>> &displacement,
+                MPI_Comm                                   communicator);
+
+  /// Energy of each bond of the bond-based model at small strain,
+  /// k (e . eta)^2 / 2.
+  /// @param bonds  of this rank
+  /// @return  of all ranks, sorted by nodes
+  template <int dim>
+  std::vector<BondEnergy>
+  bond_energies(const Mesh::NodalMesh<dim>                &mesh,
+                const BondSet                             &bonds,
                 const std::vector<dealii::Tensor<1, dim>> &displacement,
                 MPI_Comm                                   communicator);
 } // namespace Perimorph::Coupling

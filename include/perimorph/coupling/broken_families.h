@@ -38,4 +38,13 @@ namespace Perimorph::Coupling
              const std::vector<double>          &alpha,
              const Peridynamics::FamilySet<dim> &families,
              MPI_Comm                            communicator);
+
+  /// The same with bonds in the place of families.
+  /// @param bonds  of this rank
+  template <int dim>
+  std::vector<unsigned int>
+  find_parts(const Mesh::NodalMesh<dim>                     &mesh,
+             const std::vector<double>                      &alpha,
+             const std::vector<std::array<unsigned int, 2>> &bonds,
+             MPI_Comm                                        communicator);
 } // namespace Perimorph::Coupling

@@ -77,7 +77,7 @@ namespace Perimorph::Coupling
 
     /// @param more_nodes  nodes that every rank must see (constraints)
     /// @param cracks      only needed by the constructor
-    /// @param broken      the same; bonds of the correspondence model
+    /// @param broken      the same
     CoupledProblem(const Mesh::DistributedMesh<dim> &mesh,
                    const Mesh::RegionMap            &region,
                    const BodyMaterials<dim>         &materials,
@@ -142,6 +142,18 @@ namespace Perimorph::Coupling
     Peridynamics::FamilySet<dim>
     correspondence_families() const;
 
+    /// Bonds of the bond-based model that this rank owns, with what stiffness
+    /// they have left; empty with the correspondence model.
+    const BondSet &
+    bonds() const
+    {
+      return bond_set;
+    }
+
+    /// Parts of the body that nothing holds together, see find_parts().
+    std::vector<unsigned int>
+    parts(const Mesh::RegionMap &region) const;
+
     /// nodal_virial_stress() of the bonds; empty without bonds.
     /// @param displacement  ghosts up to date
     std::vector<dealii::Tensor<2, dim>>
@@ -199,12 +211,15 @@ namespace Perimorph::Coupling
                         const Progress             &progress);
     /// Holds what broke off, so that the problem stays regular.
     /// @param parts  of the body, see find_parts()
+    /// @param more   nodes that must be held too: few bonds are a mechanism
     void
-    ground_loose_parts(const std::vector<unsigned int> &parts);
+    ground_loose_parts(const std::vector<unsigned int> &parts,
+                       const std::vector<bool>         &more = {});
     void
     make_bonds(const Mesh::RegionMap      &region,
                const CouplingParameters   &parameters,
                const Bonds::CrackSet<dim> &cracks,
+               const Bonds::BrokenBonds   &broken,
                const Progress             &progress);
 
     const Mesh::DistributedMesh<dim>        &mesh;
@@ -214,6 +229,7 @@ namespace Perimorph::Coupling
     std::unique_ptr<Fem::ElasticCells<dim>>  all_cells;
     std::vector<std::unique_ptr<Term>>       contributions;
     std::vector<const Term *>                families;
+    BondSet                                  bond_set;
     Counts                                   local_counts;
     CrackReport                              cracked;
   };

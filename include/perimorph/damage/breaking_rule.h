@@ -20,6 +20,8 @@ namespace Perimorph::Damage
     double horizon;        ///< mean of both ends [length]
     double horizon_ratio;  ///< mean of horizon over spacing of both ends [-]
     double youngs_modulus; ///< mean of both ends
+    /// Of bonds that soften (SawTooth).
+    unsigned int teeth_lost = 0;
 
     // Means of both ends, only where sees_particles(); the third direction of
     // a 2D model included.

@@ -26,6 +26,17 @@ namespace Perimorph::Damage
   double
   critical_stretch_of_node(double fracture_energy, double moment);
 
+  /// The same for the calibrated bonds of an interior node of a uniform
+  /// lattice, which irregular meshes have on average.
+  /// @param horizon_ratio  m = delta / spacing [-]
+  template <int dim>
+  double
+  critical_stretch_of_lattice(double                fracture_energy,
+                              double                youngs_modulus,
+                              double                horizon,
+                              double                horizon_ratio,
+                              Materials::PlaneState state);
+
   /// w_0, energy of a bond over the volumes of both its ends: 3 G_c / (2
   /// delta^3) in 2D, 4 G_c / (pi delta^4) in 3D.
   /// @return  [stress / length^dim]

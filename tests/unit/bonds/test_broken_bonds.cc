@@ -28,4 +28,23 @@ namespace Perimorph::Bonds
     EXPECT_EQ(broken.count(7), 1u);
     EXPECT_EQ(broken.count(4), 0u);
   }
+
+  TEST(BrokenBonds, lose_teeth_before_they_break)
+  {
+    BrokenBonds broken(3);
+    EXPECT_EQ(broken.share_left(3, 7), 1.);
+    EXPECT_TRUE(broken.add(7, 3, 1));
+    EXPECT_TRUE(broken.add(3, 7, 2));
+    EXPECT_FALSE(broken.contains(3, 7));
+    EXPECT_EQ(broken.teeth_lost(7, 3), 2u);
+    EXPECT_NEAR(broken.share_left(3, 7), 1. / 3., 1e-15);
+    EXPECT_EQ(broken.size(), 0u);
+    EXPECT_FALSE(broken.empty());
+    EXPECT_TRUE(broken.add(3, 7, 4));
+    EXPECT_TRUE(broken.contains(3, 7));
+    EXPECT_EQ(broken.size(), 1u);
+    EXPECT_EQ(broken.count(7), 1u);
+    EXPECT_FALSE(broken.add(3, 7, 5));
+    EXPECT_EQ(broken.share_left(3, 7), 0.);
+  }
 } // namespace Perimorph::Bonds

@@ -72,6 +72,14 @@ namespace Perimorph::Damage
           critical_stretch(G_c, E, m, PlaneState::plane_stress);
         EXPECT_NEAR(std::pow(of_continuum / of_node, 2), expected, 6e-4)
           << "m " << m;
+        // The same lattice in other units.
+        EXPECT_NEAR(critical_stretch_of_lattice<2>(5. * G_c,
+                                                   E,
+                                                   5. * m,
+                                                   m,
+                                                   PlaneState::plane_stress),
+                    of_node,
+                    1e-13);
       }
   }
 

@@ -1,0 +1,88 @@
+#include <perimorph/coupling/broken_bond_set.h>
+
+#include <algorithm>
+
+namespace Perimorph::Coupling
+{
+  namespace
+  {
+    /// Keeps the entries of a list whose index passes.
+    template <typename T, typename Keeps>
+    void
+    keep_where(std::vector<T> &list, const Keeps &keeps)
+    {
+      std::size_t n_kept = 0;
+      for (std::size_t k = 0; k < list.size(); ++k)
+        if (keeps(k))
+          {
+            if (n_kept != k)
+              list[n_kept] = std::move(list[k]);
+            ++n_kept;
+          }
+      list.resize(n_kept);
+    }
+
+    bool
+    has_broken(const Bonds::BrokenBonds        &broken,
+               const std::vector<unsigned int> &nodes)
+    {
+      for (std::size_t a = 0; a < nodes.size(); ++a)
+        if (broken.count(nodes[a]) > 0)
+          for (std::size_t b = 0; b < nodes.size(); ++b)
+            if (a != b && broken.teeth_lost(nodes[a], nodes[b]) > 0)
+              return true;
+      return false;
+    }
+  } // namespace
+
+  template <int dim>
+  void
+  break_bonds(const Mesh::NodalMesh<dim> &mesh,
+              const Bonds::BrokenBonds   &broken,
+              BondCoupling<dim>          &coupling)
+  {
+    auto &bonds = coupling.bonds;
+    for (std::size_t b = 0; b < bonds.nodes.size(); ++b)
+      bonds.stiffness[b] *=
+        broken.share_left(bonds.nodes[b][0], bonds.nodes[b][1]);
+    const auto remains = [left = bonds.stiffness](const std::size_t b) {
+      return left[b] != 0.;
+    };
+    keep_where(bonds.nodes, remains);
+    keep_where(bonds.stiffness, remains);
+
+    coupling.replaced.resize(mesh.n_cells(), false);
+    std::vector<bool> goes(mesh.n_cells(), false);
+    for (const auto &bond : broken.list())
+      for (const unsigned int c : mesh.node_cells.row(bond.nodes[0]))
+        if (std::find(mesh.cells[c].begin(),
+                      mesh.cells[c].end(),
+                      bond.nodes[1]) != mesh.cells[c].end())
+          goes[c] = coupling.replaced[c] = true;
+    const auto stays = [&goes, cells = coupling.cells](const std::size_t k) {
+      return !goes[cells[k]];
+    };
+    keep_where(coupling.cells, stays);
+    keep_where(coupling.tensors, stays);
+    const auto part_stays =
+      [&goes, &broken, parts = coupling.parts](const std::size_t p) {
+        return !goes[parts[p].cell] && !has_broken(broken, parts[p].nodes);
+      };
+    keep_where(coupling.parts, part_stays);
+    keep_where(coupling.part_tensors, part_stays);
+    coupling.springs.erase(
+      std::remove_if(coupling.springs.begin(),
+                     coupling.springs.end(),
+                     [&goes](const auto &cell) { return goes[cell.cell]; }),
+      coupling.springs.end());
+  }
+
+  template void
+  break_bonds(const Mesh::NodalMesh<2> &,
+              const Bonds::BrokenBonds &,
+              BondCoupling<2> &);
+  template void
+  break_bonds(const Mesh::NodalMesh<3> &,
+              const Bonds::BrokenBonds &,
+              BondCoupling<3> &);
+} // namespace Perimorph::Coupling
