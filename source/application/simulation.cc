@@ -133,8 +133,10 @@ namespace Perimorph::Application
 
   template <int dim>
   typename Simulation<dim>::Method
-  Simulation<dim>::make_method(const Mesh::RegionMap      &region,
-                               const Bonds::CrackSet<dim> &cracks)
+  Simulation<dim>::make_method(
+    const Mesh::RegionMap                            &region,
+    const Bonds::CrackSet<dim>                       &cracks,
+    std::shared_ptr<const Coupling::IntactBonds<dim>> intact)
   {
     const auto timer = timing.scope("setup");
     Method     method;
@@ -156,7 +158,8 @@ namespace Perimorph::Application
         report,
         supports->coupled_nodes(),
         cracks,
-        broken);
+        broken,
+        std::move(intact));
     }
     method.equilibrium = std::make_unique<Solvers::Equilibrium<dim>>(
       *mesh,

@@ -162,7 +162,7 @@ namespace Perimorph::Application
           return materials.bond_constants[nodal.cell_material[cell]]
             .youngs_modulus;
         });
-        one.teeth_lost = broken.teeth_lost(i, j);
+        one.teeth_lost     = broken.teeth_lost(i, j);
         if (!particles.empty())
           see_particles(particles[i], particles[j], xi, eta, one);
         loads.push_back({bond.nodes,
@@ -198,16 +198,21 @@ namespace Perimorph::Application
         if (in_core)
           return first;
 
-        auto wider = parameters.region;
+        auto       wider = parameters.region;
+        const auto add   = [&](const std::array<unsigned int, 2> &nodes) {
+          Parameters::Feature feature;
+          feature.kind = Parameters::FeatureKind::segment;
+          for (const unsigned int n : nodes)
+            for (int d = 0; d < dim; ++d)
+              feature.numbers.push_back(mesh->nodal().nodes[n][d]);
+          wider.features.push_back(feature);
+        };
+        std::set<unsigned int> ends;
         for (const auto &bond : first)
           if (!bond.in_core)
             {
-              Parameters::Feature feature;
-              feature.kind = Parameters::FeatureKind::segment;
-              for (const unsigned int n : bond.nodes)
-                for (int d = 0; d < dim; ++d)
-                  feature.numbers.push_back(mesh->nodal().nodes[n][d]);
-              wider.features.push_back(feature);
+              add(bond.nodes);
+              ends.insert(bond.nodes.begin(), bond.nodes.end());
             }
         const auto before = method.region.alpha;
         // Where cells grow, families reach further than the core around them.
@@ -215,6 +220,14 @@ namespace Perimorph::Application
           {
             grow_core(method, wider);
             wider.core_size.value *= 1.5;
+          }
+        if (before == method.region.alpha)
+          {
+            // Horizons that differ much: room around all bonds of these nodes.
+            for (const auto &bond : loads)
+              if (ends.count(bond.nodes[0]) + ends.count(bond.nodes[1]) > 0)
+                add(bond.nodes);
+            grow_core(method, wider);
           }
         if (before == method.region.alpha)
           throw Base::SolveError(
@@ -281,7 +294,7 @@ namespace Perimorph::Application
         row.push_back(broken.share_left(bond.nodes[0], bond.nodes[1]));
         broken_table->write_row(row);
       }
-    auto next = make_method(method.region, cracks);
+    auto next = make_method(method.region, cracks, method.problem->intact());
     next.time = method.time;
     log << "  event " << n_events << ": " << bonds.size()
         << (broken.n_teeth() > 1 ? " bonds soften" : " bonds break")

@@ -27,8 +27,9 @@ namespace Perimorph::Application
                                                              : 5.,
                           true,
                           false};
-    growth.active           = texts.crack_growth != "none";
-    growth.bonds            = texts.crack_growth == "bonds";
+    growth.active            = texts.crack_growth != "none";
+    growth.bonds             = texts.crack_growth == "bonds";
+    coupling.bonds_may_break = growth.bonds;
     growth.events           = growth.active && texts.growth_control == "events";
     growth.fracture_energy  = texts.fracture_energy;
     growth.maximum_advances = texts.maximum_advances;

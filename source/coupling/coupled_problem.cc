@@ -137,17 +137,20 @@ namespace Perimorph::Coupling
   } // namespace
 
   template <int dim>
-  CoupledProblem<dim>::CoupledProblem(const Mesh::DistributedMesh<dim> &mesh,
-                                      const Mesh::RegionMap            &region,
-                                      const BodyMaterials<dim>   &materials,
-                                      const CouplingParameters   &parameters,
-                                      const Progress             &progress,
-                                      std::vector<unsigned int>   more_nodes,
-                                      const Bonds::CrackSet<dim> &cracks,
-                                      const Bonds::BrokenBonds   &broken)
+  CoupledProblem<dim>::CoupledProblem(
+    const Mesh::DistributedMesh<dim>       &mesh,
+    const Mesh::RegionMap                  &region,
+    const BodyMaterials<dim>               &materials,
+    const CouplingParameters               &parameters,
+    const Progress                         &progress,
+    std::vector<unsigned int>               more_nodes,
+    const Bonds::CrackSet<dim>             &cracks,
+    const Bonds::BrokenBonds               &broken,
+    std::shared_ptr<const IntactBonds<dim>> intact)
     : mesh(mesh)
     , materials(materials)
     , more_nodes(std::move(more_nodes))
+    , intact_bonds(std::move(intact))
   {
     if (region.n_core + region.n_blending == 0)
       {
@@ -193,21 +196,28 @@ namespace Perimorph::Coupling
     for (const auto &law : materials.laws)
       options.constants.push_back(constants_at_rest(*law));
 
-    Peridynamics::FamilySet<dim> set;
+    IntactBonds<dim> found;
+    const bool       is_known = intact_bonds != nullptr;
+    auto            &set      = found.families;
     Base::collectively(mesh.communicator(), [&]() {
-      set = parameters.scheme == Scheme::consistent
-              ? consistent_families(nodal,
-                                    region.alpha,
-                                    region.horizon,
-                                    options,
-                                    cracks,
-                                    &cracked)
-              : classical_families(nodal,
-                                   forces ? extended_weight(nodal, region)
-                                          : region.alpha,
-                                   region.horizon,
-                                   options,
-                                   cracks);
+      if (is_known)
+        set = intact_bonds->families;
+      else
+        set = parameters.scheme == Scheme::consistent
+                ? consistent_families(nodal,
+                                      region.alpha,
+                                      region.horizon,
+                                      options,
+                                      cracks,
+                                      &found.cracked)
+                : classical_families(nodal,
+                                     forces ? extended_weight(nodal, region)
+                                            : region.alpha,
+                                     region.horizon,
+                                     options,
+                                     cracks);
+      if (!is_known && parameters.bonds_may_break)
+        intact_bonds = std::make_shared<const IntactBonds<dim>>(found);
       if (!broken.empty())
         set = break_bonds(nodal,
                           region.horizon,
@@ -216,6 +226,7 @@ namespace Perimorph::Coupling
                           set,
                           local_counts.isolated);
     });
+    cracked = is_known ? intact_bonds->cracked : found.cracked;
     std::vector<unsigned int> parts;
     if (!broken.empty())
       parts = find_parts(nodal, region.alpha, set, mesh.communicator());
@@ -287,17 +298,26 @@ namespace Perimorph::Coupling
                   [](const auto &law) { return !law->is_linear(); });
     BondCoupling<dim> coupling;
     Base::collectively(mesh.communicator(), [&]() {
-      coupling = make_bond_coupling(nodal,
-                                    forces ? extended_weight(nodal, region)
-                                           : region.alpha,
-                                    region.horizon,
-                                    materials.bond_constants,
-                                    !consistent      ? ElementShare::none
-                                    : !finite_strain ? ElementShare::tensors
-                                                     : ElementShare::springs,
-                                    progress,
-                                    cracks,
-                                    parameters.crack_rule);
+      if (intact_bonds)
+        coupling = intact_bonds->coupling;
+      else
+        coupling = make_bond_coupling(nodal,
+                                      forces ? extended_weight(nodal, region)
+                                             : region.alpha,
+                                      region.horizon,
+                                      materials.bond_constants,
+                                      !consistent      ? ElementShare::none
+                                      : !finite_strain ? ElementShare::tensors
+                                                       : ElementShare::springs,
+                                      progress,
+                                      cracks,
+                                      parameters.crack_rule);
+      if (!intact_bonds && parameters.bonds_may_break)
+        {
+          IntactBonds<dim> found;
+          found.coupling = coupling;
+          intact_bonds   = std::make_shared<const IntactBonds<dim>>(found);
+        }
       if (!broken.empty())
         break_bonds(nodal, broken, coupling);
     });

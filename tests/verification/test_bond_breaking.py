@@ -27,6 +27,18 @@ STUDY = {
 }
 # The first event for m = 3 is not reproduced: -5 % (energy), +2 % (stretch).
 FIRST_IS_KNOWN_MISS = (3, )
+# Bond-based: first event and kappa of bonds that break at once, kappa in six
+# teeth (section 6, +-.04 and +-.03).
+BOND_BASED = {2: (1.095, 1.64, 1.14), 3: (.903, 1.31, 1.04)}
+# Elements beside the bonds are not those of the study (exact segments for
+# averages over nodes): first event 1.075 and .825, with energy blending 1.127
+# and .923. In teeth, m 2: 1.21 over a long run, on a crack that stays straight
+# where that of the study wanders.
+KNOWN_MISSES = {
+    "bond based, m 2: first event": .03,
+    "bond based, m 3: first event": .09,
+    "bond based, m 2: kappa in teeth": .08,
+}
 
 UNSTRUCTURED = """SetFactory("OpenCASCADE");
 Rectangle(1) = {0, -33/64, 0, 1.5, 33/32};
@@ -110,8 +122,39 @@ def solve(study, entries):
     return study.solve(path)
 
 
+def bond_based(study, m):
+    """The model without calibration: at once and in teeth."""
+    base = dict(
+        UNIFORM_MESH, **{
+            "Peridynamics/model": "bond based",
+            "Peridynamics/horizon ratio": m,
+            "Cracks/treatment": "shape tensor",
+        })
+    what = "bond based, m %d: " % m
+    first, kappa, in_teeth = BOND_BASED[m]
+    solution = solve(
+        study,
+        dict(
+            base, **{
+                "Cracks/softening teeth": 1,
+                "Cracks/maximum advances": 45 if m == 2 else 90,
+            }))
+    growth = Growth(solution, m)
+    study.within_percent(what + "first event", growth.first, first, 1.)
+    study.within(what + "kappa at once", growth.kappa, kappa, .04)
+    study.below(what + "energy balance", solution["energy_balance"], 1e-8)
+    solution = solve(
+        study,
+        dict(base,
+             **{"Cracks/maximum advances": 130 if m == 2 else 220}))
+    growth = Growth(solution, m)
+    study.within(what + "kappa in teeth", growth.kappa, in_teeth, .03)
+    study.below(what + "energy balance", solution["energy_balance"], 1e-8)
+
+
 def main():
-    study = Study(__doc__)
+    study = Study(__doc__, KNOWN_MISSES, extent=["short", "long"])
+    is_long = study.arguments.extent == "long"
     for (criterion, m), (first, kappa, bonds) in STUDY.items():
         if not study.part("as in the study: %s, m %d" % (criterion, m)):
             continue
@@ -147,6 +190,21 @@ def main():
                         "Peridynamics/horizon ratio": m,
                         "Cracks/maximum advances": 50,
                     }))
+            growth = Growth(solution, m)
+            study.within_percent("load over that of Griffith",
+                                 math.sqrt(growth.kappa), 1., 8.)
+            study.below("energy balance", solution["energy_balance"], 1e-8)
+
+    for m in (2, 3) if is_long else (2, ):
+        if study.part("bond based, m %d" % m):
+            bond_based(study, m)
+        if study.part("bond based, unstructured mesh, m %d" % m):
+            solution = solve(
+                study, {
+                    "Peridynamics/model": "bond based",
+                    "Peridynamics/horizon ratio": m,
+                    "Cracks/maximum advances": 100 if m == 2 else 180,
+                })
             growth = Growth(solution, m)
             study.within_percent("load over that of Griffith",
                                  math.sqrt(growth.kappa), 1., 8.)

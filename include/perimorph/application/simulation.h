@@ -112,8 +112,9 @@ namespace Perimorph::Application
     Method
     set_up(Mesh::Mode mode);
     Method
-    make_method(const Mesh::RegionMap      &region,
-                const Bonds::CrackSet<dim> &cracks);
+    make_method(const Mesh::RegionMap                            &region,
+                const Bonds::CrackSet<dim>                       &cracks,
+                std::shared_ptr<const Coupling::IntactBonds<dim>> intact = {});
     void
     report_set_up(const Method &method);
     /// A load step or arc step that was accepted.

@@ -44,6 +44,8 @@ namespace Perimorph::Coupling
     /// least-squares sense only, the shear modulus.
     std::optional<StabilizationScale> scale      = std::nullopt;
     CrackRule                         crack_rule = CrackRule::consistent;
+    /// Whether CoupledProblem::intact() is kept.
+    bool bonds_may_break = false;
   };
 
   /// The influence function as given. Otherwise gaussian, or in 2D, above a
@@ -65,6 +67,16 @@ namespace Perimorph::Coupling
     std::vector<BondMaterial>                     bond_constants;
   };
 
+  /// Peridynamics of a body before bonds broke one by one: what takes time to
+  /// find, and stays while neither the core nor cracks change.
+  template <int dim>
+  struct IntactBonds
+  {
+    Peridynamics::FamilySet<dim> families; ///< correspondence model
+    BondCoupling<dim>            coupling; ///< bond-based model
+    CrackReport                  cracked;
+  };
+
   /// The internal energy of the coupled body as a list of contributions. What a
   /// scene does not have is not in the list.
   template <int dim>
@@ -78,14 +90,23 @@ namespace Perimorph::Coupling
     /// @param more_nodes  nodes that every rank must see (constraints)
     /// @param cracks      only needed by the constructor
     /// @param broken      the same
-    CoupledProblem(const Mesh::DistributedMesh<dim> &mesh,
-                   const Mesh::RegionMap            &region,
-                   const BodyMaterials<dim>         &materials,
-                   const CouplingParameters         &parameters,
-                   const Progress                   &progress   = {},
-                   std::vector<unsigned int>         more_nodes = {},
-                   const Bonds::CrackSet<dim>       &cracks     = {},
-                   const Bonds::BrokenBonds         &broken     = {});
+    /// @param intact      of a problem that differs in broken bonds only
+    CoupledProblem(const Mesh::DistributedMesh<dim>       &mesh,
+                   const Mesh::RegionMap                  &region,
+                   const BodyMaterials<dim>               &materials,
+                   const CouplingParameters               &parameters,
+                   const Progress                         &progress   = {},
+                   std::vector<unsigned int>               more_nodes = {},
+                   const Bonds::CrackSet<dim>             &cracks     = {},
+                   const Bonds::BrokenBonds               &broken     = {},
+                   std::shared_ptr<const IntactBonds<dim>> intact     = {});
+
+    /// None if bonds cannot break.
+    std::shared_ptr<const IntactBonds<dim>>
+    intact() const
+    {
+      return intact_bonds;
+    }
 
     const Fem::NodePartition<dim> &
     partition() const
@@ -230,6 +251,7 @@ namespace Perimorph::Coupling
     std::vector<std::unique_ptr<Term>>       contributions;
     std::vector<const Term *>                families;
     BondSet                                  bond_set;
+    std::shared_ptr<const IntactBonds<dim>>  intact_bonds;
     Counts                                   local_counts;
     CrackReport                              cracked;
   };

@@ -68,9 +68,9 @@ namespace Perimorph::Damage
 
   TEST(SawTooth, rule_of_bonds)
   {
-    const auto load = [](const Limits       &limits,
-                         const unsigned int  n_teeth,
-                         const BondState    &state) {
+    const auto load = [](const Limits      &limits,
+                         const unsigned int n_teeth,
+                         const BondState   &state) {
       return make_saw_tooth_rule<2>(limits,
                                     n_teeth,
                                     Materials::PlaneState::plane_stress)
