@@ -117,6 +117,63 @@ namespace Perimorph::Application
   }
 
   template <int dim>
+  std::vector<unsigned int>
+  parts_of_body(const Mesh::NodalMesh<dim> &mesh,
+                const Bonds::CrackSet<dim> &cracks)
+  {
+    constexpr unsigned int    none = static_cast<unsigned int>(-1);
+    std::vector<unsigned int> parts(mesh.n_nodes(), none), front;
+    unsigned int              n_parts = 0;
+    for (unsigned int start = 0; start < mesh.n_nodes(); ++start)
+      {
+        if (parts[start] != none)
+          continue;
+        parts[start] = n_parts;
+        front.assign(1, start);
+        for (std::size_t next = 0; next < front.size(); ++next)
+          for (const unsigned int cell : mesh.node_cells.row(front[next]))
+            for (const unsigned int n : mesh.cells[cell])
+              if (parts[n] == none &&
+                  !cracks.crosses(mesh.nodes[front[next]], mesh.nodes[n]))
+                {
+                  parts[n] = n_parts;
+                  front.push_back(n);
+                }
+        ++n_parts;
+      }
+    return parts;
+  }
+
+  template <int dim>
+  std::vector<CrackMouth>
+  find_mouths(const Mesh::NodalMesh<dim> &mesh,
+              const Bonds::CrackSet<dim> &cracks)
+  {
+    // Edges of a face by its nodes in lexicographic order.
+    const std::vector<std::array<unsigned int, 2>> edges =
+      dim == 2 ? std::vector<std::array<unsigned int, 2>>{{{0, 1}}}
+               : std::vector<std::array<unsigned int, 2>>{{{0, 1}},
+                                                          {{1, 3}},
+                                                          {{3, 2}},
+                                                          {{2, 0}}};
+    std::vector<CrackMouth> mouths;
+    for (unsigned int f = 0; f < mesh.boundary_faces.size(); ++f)
+      {
+        const auto &nodes = mesh.boundary_faces[f].nodes;
+        for (unsigned int k = 0; k < cracks.facets().size(); ++k)
+          for (const auto &edge : edges)
+            if (Bonds::crosses(cracks.facets()[k],
+                               mesh.nodes[nodes[edge[0]]],
+                               mesh.nodes[nodes[edge[1]]]))
+              {
+                mouths.push_back({f, k});
+                break;
+              }
+      }
+    return mouths;
+  }
+
+  template <int dim>
   void
   check_cracks_in_core(const Mesh::NodalMesh<dim>     &mesh,
                        const Mesh::RegionMap          &region,
@@ -186,6 +243,12 @@ namespace Perimorph::Application
     const Mesh::NodalMesh<dim> &,                                            \
     const std::vector<Parameters::Polyline> &);                              \
   template std::vector<Parameters::Feature> crack_features<dim>(             \
+    const Bonds::CrackSet<dim> &);                                           \
+  template std::vector<unsigned int> parts_of_body<dim>(                     \
+    const Mesh::NodalMesh<dim> &,                                            \
+    const Bonds::CrackSet<dim> &);                                           \
+  template std::vector<CrackMouth> find_mouths<dim>(                         \
+    const Mesh::NodalMesh<dim> &,                                            \
     const Bonds::CrackSet<dim> &);                                           \
   template void check_cracks_in_core<dim>(const Mesh::NodalMesh<dim> &,      \
                                           const Mesh::RegionMap &,           \

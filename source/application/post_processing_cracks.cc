@@ -2,41 +2,45 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <map>
+#include <optional>
+#include <sstream>
 
 namespace Perimorph::Application
 {
   namespace
   {
-    constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-
     const std::string factor_unit  = "stress length^(1/2)";
     const std::string release_unit = "stress length";
 
     /// Values of one tip, in the order of their names.
     struct TipValue
     {
-      const char *name;
-      double      value;
-      std::string unit;
+      const char           *name;
+      std::optional<double> value;
+      std::string           unit;
     };
 
     std::vector<TipValue>
     tip_values(const Fracture::TipQuantities &tip)
     {
-      Fracture::FractureQuantities q;
-      if (tip.values.empty())
-        q = {missing, missing, missing, missing, missing};
-      else
-        q = tip.values.front();
-      return {{"_K_I", q.K_I, factor_unit},
-              {"_K_II", q.K_II, factor_unit},
-              {"_J", q.J, release_unit},
-              {"_T_stress", q.T_stress, "stress"},
-              {"_K_I_opening", tip.opening.K_I, factor_unit},
-              {"_K_II_opening", tip.opening.K_II, factor_unit},
-              {"_domain_dependence", tip.domain_dependence(), "-"}};
+      const auto exists = [](const bool condition, const double value) {
+        return condition ? std::optional<double>(value) : std::nullopt;
+      };
+      const bool room   = !tip.values.empty();
+      const bool opened = tip.opening.n_places >= 3;
+      const auto q = room ? tip.values.front() : Fracture::FractureQuantities();
+      return {{"_K_I", exists(room, q.K_I), factor_unit},
+              {"_K_II", exists(room, q.K_II), factor_unit},
+              {"_J", exists(room, q.J), release_unit},
+              {"_T_stress", exists(room, q.T_stress), "stress"},
+              {"_K_I_opening", exists(opened, tip.opening.K_I), factor_unit},
+              {"_K_II_opening", exists(opened, tip.opening.K_II), factor_unit},
+              {"_domain_dependence",
+               exists(tip.values.size() > 1, tip.domain_dependence()),
+               "-"}};
     }
 
     std::vector<TipValue>
@@ -44,6 +48,7 @@ namespace Perimorph::Application
     {
       double mean = 0., low = std::numeric_limits<double>::infinity(),
              high = -low, J = 0.;
+      bool room = false;
       for (const auto &station : front.values)
         if (!station.empty())
           {
@@ -52,13 +57,28 @@ namespace Perimorph::Application
             J += station.front().J / front.values.size();
             low  = std::min(low, K);
             high = std::max(high, K);
+            room = true;
           }
-      if (!(low <= high))
-        mean = low = high = J = missing;
-      return {{"_K_I", mean, factor_unit},
-              {"_K_I_smallest", low, factor_unit},
-              {"_K_I_largest", high, factor_unit},
-              {"_J", J, release_unit}};
+      const auto exists = [&](const double value) {
+        return room ? std::optional<double>(value) : std::nullopt;
+      };
+      return {{"_K_I", exists(mean), factor_unit},
+              {"_K_I_smallest", exists(low), factor_unit},
+              {"_K_I_largest", exists(high), factor_unit},
+              {"_J", exists(J), release_unit}};
+    }
+
+    std::string
+    no_room(const double free_distance, const double needed)
+    {
+      std::ostringstream text;
+      text << "no domain integral in some states: the nearest boundary, other "
+              "crack or end was "
+           << std::setprecision(3) << free_distance << " away";
+      if (needed > 0.)
+        text << ", it needs " << needed;
+      text << "; factors and J of such states are left out";
+      return text.str();
     }
 
     template <int dim>
@@ -86,7 +106,10 @@ namespace Perimorph::Application
     };
     if constexpr (dim == 2)
       for (const auto &tip : Fracture::find_tips(mesh.nodal(), cracks))
-        add(tip.crack);
+        {
+          add(tip.crack);
+          tip_roots.push_back(tip.root);
+        }
     else
       for (const auto &front : Fracture::find_fronts(mesh.nodal(), cracks))
         add(front.crack);
@@ -140,39 +163,50 @@ namespace Perimorph::Application
   PostProcessing<dim>::crack_quantities(
     const State<dim>                   &state,
     const Mesh::RegionMap              &region,
-    const Peridynamics::FamilySet<dim> &families) const
+    const Peridynamics::FamilySet<dim> &families,
+    std::map<std::string, std::string> &without_room) const
   {
-    std::map<std::string, std::vector<TipValue>> found;
-    std::map<unsigned int, unsigned int>         count;
-    const auto add = [&](const unsigned int           crack,
-                         const std::vector<TipValue> &values) {
-      found[parameters.pre_cracks[crack].name + (dim == 2 ? "_tip" : "_front") +
-            std::to_string(++count[crack])] = values;
-    };
     if (tip_names.empty())
       return {};
+    std::vector<std::vector<TipValue>> found(tip_names.size());
     if constexpr (dim == 2)
       for (const auto &tip : tip_quantities(state, region, families))
-        add(tip.tip.crack, tip_values(tip));
+        {
+          const unsigned int t =
+            std::find(tip_roots.begin(), tip_roots.end(), tip.tip.root) -
+            tip_roots.begin();
+          if (t == tip_names.size())
+            continue;
+          found[t] = tip_values(tip);
+          if (tip.values.empty())
+            without_room[tip_names[t]] =
+              no_room(tip.tip.free_distance, tip.needed_distance);
+        }
     else
-      for (const auto &front : Fracture::front_quantities(
-             cracked_body(state, region, families),
-             Fracture::find_fronts(mesh.nodal(), cracks),
-             n_stations,
-             {},
-             mesh.communicator()))
-        add(front.front.crack, front_values(front));
+      {
+        // Fronts do not grow.
+        const auto fronts = Fracture::front_quantities(
+          cracked_body(state, region, families),
+          Fracture::find_fronts(mesh.nodal(), cracks),
+          n_stations,
+          {},
+          mesh.communicator());
+        for (unsigned int f = 0; f < fronts.size(); ++f)
+          {
+            found[f] = front_values(fronts[f]);
+            if (!found[f].front().value)
+              without_room[tip_names[f]] =
+                no_room(fronts[f].front.free_distance, 0.);
+          }
+      }
 
     std::vector<NamedQuantity> list;
-    for (const auto &tip : tip_names)
-      {
-        const auto place = found.find(tip);
-        for (const auto &value :
-             place == found.end() ? value_names<dim>() : place->second)
-          list.push_back({tip + value.name,
-                          place == found.end() ? missing : value.value,
-                          value.unit});
-      }
+    for (unsigned int t = 0; t < tip_names.size(); ++t)
+      for (const auto &value : found[t].empty() ? value_names<dim>() : found[t])
+        list.push_back({tip_names[t] + value.name,
+                        found[t].empty() ? 0. : value.value.value_or(0.),
+                        value.unit,
+                        !found[t].empty() && value.value.has_value()});
     return list;
   }
 
@@ -192,7 +226,8 @@ namespace Perimorph::Application
   template std::vector<NamedQuantity> PostProcessing<dim>::crack_quantities( \
     const State<dim> &,                                                      \
     const Mesh::RegionMap &,                                                 \
-    const Peridynamics::FamilySet<dim> &) const;
+    const Peridynamics::FamilySet<dim> &,                                    \
+    std::map<std::string, std::string> &) const;
 
   PERIMORPH_INSTANTIATE(2)
   PERIMORPH_INSTANTIATE(3)

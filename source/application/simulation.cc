@@ -188,24 +188,10 @@ namespace Perimorph::Application
     result->set("counts", "active_cells", counts.active_cells);
     result->set("counts", "particles", counts.particles);
     result->set("counts", "bonds", counts.bonds);
-    std::size_t n_hidden = 0;
-    if (method.region.n_core > 0)
-      Bonds::crack_damage(nodal,
-                          method.region.alpha,
-                          method.region.horizon,
-                          cracks,
-                          n_hidden);
-    result->set("counts", "broken_bonds", n_hidden);
-    if (!cracks.empty())
-      {
-        const auto &cracked = method.problem->crack_report();
-        result->set("counts", "cut_families", cracked.n_cut);
-        result->set("counts", "families_without_energy", cracked.n_dead);
-        if (cracked.n_dead > 0)
-          log.warning(
-            std::to_string(cracked.n_dead) +
-            " families have too few intact bonds and carry no energy");
-      }
+    report_cracks(method);
+    if (!cracks.empty() && method.problem->crack_report().n_dead > 0)
+      log.warning(std::to_string(method.problem->crack_report().n_dead) +
+                  " families have too few intact bonds and carry no energy");
     result->set("counts", "newton_iterations", 0);
     result->set("counts", "linear_iterations", 0);
     if (!parameters.growth.bonds)
@@ -261,6 +247,26 @@ namespace Perimorph::Application
         "' leaves ghost forces on this mesh; 'consistent' does not");
     else if (ghost > 1e-9)
       log.warning("the patch test is not exact to round-off on this mesh");
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::report_cracks(const Method &method)
+  {
+    std::size_t n_hidden = 0;
+    if (method.region.n_core > 0)
+      Bonds::crack_damage(mesh->nodal(),
+                          method.region.alpha,
+                          method.region.horizon,
+                          cracks,
+                          n_hidden,
+                          broken);
+    result->set("counts", "broken_bonds", n_hidden);
+    if (cracks.empty())
+      return;
+    const auto &cracked = method.problem->crack_report();
+    result->set("counts", "cut_families", cracked.n_cut);
+    result->set("counts", "families_without_energy", cracked.n_dead);
   }
 
   template class Simulation<2>;

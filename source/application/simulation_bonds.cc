@@ -309,7 +309,7 @@ namespace Perimorph::Application
     if (falls_apart && !loads->empty())
       {
         // Loads move a loose part without end: there is no state to solve for.
-        log << "  the body falls apart" << std::endl;
+        end_growth("separated", "the body falls apart");
         return false;
       }
     const double before = potential_energy(method);
@@ -322,7 +322,8 @@ namespace Perimorph::Application
         if (loads->empty())
           throw;
         // Loads move a mechanism without end, too.
-        log << "  the body falls apart: " << error.what() << std::endl;
+        end_growth("separated",
+                   std::string("the body falls apart: ") + error.what());
         return false;
       }
     method             = std::move(next);
@@ -331,7 +332,7 @@ namespace Perimorph::Application
     if (falls_apart || std::abs(after) * mechanism < std::abs(before) ||
         std::abs(after) > mechanism * std::abs(before))
       {
-        log << "  the body falls apart" << std::endl;
+        end_growth("separated", "the body falls apart");
         return false;
       }
     return true;
@@ -350,7 +351,7 @@ namespace Perimorph::Application
         auto bonds = next_to_break(method, never);
         if (bonds.empty())
           {
-            log << "  no bond extends" << std::endl;
+            end_growth("no bond extends", "no bond extends");
             return true;
           }
         double factor = never;
@@ -373,6 +374,7 @@ namespace Perimorph::Application
         if (!holds)
           return true;
       }
+    growth_end = "largest number of events";
     log.warning("the largest number of events was reached");
     return false;
   }
@@ -397,6 +399,7 @@ namespace Perimorph::Application
         if (!holds)
           return false;
       }
+    growth_end = "largest number of events";
     log.warning("the largest number of events was reached");
     return true;
   }

@@ -1,50 +1,20 @@
 #include <perimorph/application/crack_setup.h>
 #include <perimorph/application/simulation.h>
-#include <perimorph/base/collective.h>
 #include <perimorph/base/log.h>
-#include <perimorph/fracture/segment_growth.h>
 #include <perimorph/solvers/load_stepping.h>
-
-#include <deal.II/base/numbers.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace Perimorph::Application
 {
   namespace
   {
-    template <int dim>
-    double
-    horizon_at(const Mesh::NodalMesh<dim> &mesh,
-               const Mesh::RegionMap      &region,
-               const dealii::Point<dim>   &point)
-    {
-      double       nearest = std::numeric_limits<double>::infinity();
-      unsigned int node    = 0;
-      for (unsigned int n = 0; n < mesh.n_nodes(); ++n)
-        if (region.alpha[n] > 0. && mesh.nodes[n].distance(point) < nearest)
-          {
-            nearest = mesh.nodes[n].distance(point);
-            node    = n;
-          }
-      return region.horizon[node];
-    }
+    /// A part of the body is more than debris above this share of its nodes.
+    constexpr double smallest_part = 0.05;
 
-    /// Length of a facet in the body.
-    template <int dim>
-    double
-    length_inside(const Mesh::NodalMesh<dim>   &mesh,
-                  const Bonds::CrackFacet<dim> &facet)
-    {
-      double     length = 0.;
-      const auto points =
-        Bonds::crack_points(mesh, Bonds::CrackSet<dim>({facet}));
-      for (const auto &point : points)
-        length += point.measure;
-      return length;
-    }
+    constexpr char loose_piece[] =
+      "the next advance cuts off a piece that nothing holds";
   } // namespace
 
   template <int dim>
@@ -131,169 +101,55 @@ namespace Perimorph::Application
   }
 
   template <int dim>
-  std::optional<typename Simulation<dim>::Advance>
-  Simulation<dim>::best_advance([[maybe_unused]] Method         &method,
-                                [[maybe_unused]] const OnNewton &on_newton)
+  unsigned int
+  Simulation<dim>::n_large_parts() const
   {
-    if constexpr (dim == 2)
+    const auto                parts = parts_of_body(mesh->nodal(), cracks);
+    std::vector<unsigned int> size;
+    for (const unsigned int part : parts)
       {
-        const auto &nodal = mesh->nodal();
-        const auto  tips  = Fracture::find_tips(nodal, cracks);
-        if (tips.empty())
-          return std::nullopt;
-
-        // Probes: two horizons long, in a fan ahead of each tip.
-        struct Fan
-        {
-          double                horizon, spacing, length;
-          std::vector<double>   angles;
-          std::optional<double> direction; ///< known without probes
-        };
-        const auto factors = post_processing->tip_quantities(
-          gather(method),
-          method.region,
-          method.problem->correspondence_families());
-        std::vector<Fan> fans;
-        auto             wider = parameters.region;
-        for (unsigned int t = 0; t < tips.size(); ++t)
-          {
-            const auto &tip = tips[t];
-            Fan         fan;
-            fan.horizon = horizon_at(nodal, method.region, tip.frame.origin);
-            fan.spacing = fan.horizon / parameters.region.horizon_ratio;
-            fan.length  = parameters.growth.advance.in_horizons
-                            ? parameters.growth.advance.value * fan.horizon
-                            : parameters.growth.advance.value;
-            fan.angles =
-              Fracture::probe_angles(cracks.facets()[tip.facet].step == 0);
-            if (!factors[t].values.empty() && !parameters.finite_strain())
-              fan.direction =
-                Fracture::hoop_angle(factors[t].values.front().K_I,
-                                     factors[t].values.front().K_II);
-            std::vector<Bonds::CrackFacet<2>> outline;
-            for (const double angle :
-                 {fan.angles.front(), 0., fan.angles.back()})
-              outline.push_back(
-                Fracture::advance_facet(tip,
-                                        angle,
-                                        std::max(2. * fan.horizon, fan.length),
-                                        0));
-            for (const auto &feature :
-                 crack_features(Bonds::CrackSet<2>(outline)))
-              wider.features.push_back(feature);
-            fans.push_back(fan);
-          }
-        // The core has room before bonds there are cut; it does not shrink.
-        const double           switched = grow_core(method, wider);
-        const double           start    = potential_energy(method);
-        std::optional<Advance> best;
-        const auto with_cut = [&](const Bonds::CrackFacet<2> &facet) {
-          auto longer = cracks;
-          longer.append({facet});
-          return solve_with(longer, method.region, method);
-        };
-        for (unsigned int t = 0; t < tips.size(); ++t)
-          {
-            const auto         &tip = tips[t];
-            const auto         &fan = fans[t];
-            std::vector<double> drops;
-            if (!fan.direction)
-              for (const double angle : fan.angles)
-                drops.push_back(
-                  start -
-                  potential_energy(with_cut(
-                    Fracture::advance_facet(tip, angle, 2. * fan.horizon, 0))));
-            const double angle  = fan.direction
-                                    ? *fan.direction
-                                    : Fracture::best_angle(fan.angles, drops);
-            const double length = Fracture::closing_length(nodal,
-                                                           cracks,
-                                                           tip,
-                                                           angle,
-                                                           fan.length,
-                                                           fan.spacing);
-            Advance      advance;
-            advance.tip = tip;
-            advance.facet =
-              Fracture::advance_facet(tip, angle, length, n_advances + 1);
-            advance.length   = length_inside(nodal, advance.facet);
-            advance.switched = switched;
-            advance.after    = with_cut(advance.facet);
-            advance.released = start - potential_energy(advance.after);
-            if (!best || advance.released * best->length >
-                           best->released * advance.length)
-              best = std::move(advance);
-          }
-        return best;
+        size.resize(std::max<std::size_t>(size.size(), part + 1), 0);
+        ++size[part];
       }
-    else
-      return std::nullopt;
+    return std::count_if(size.begin(), size.end(), [&](const unsigned n) {
+      return n > smallest_part * parts.size();
+    });
   }
 
   template <int dim>
   void
-  Simulation<dim>::write_advance([[maybe_unused]] const Advance &advance,
-                                 [[maybe_unused]] const Step    &step,
-                                 [[maybe_unused]] const double   load_factor)
+  Simulation<dim>::end_growth(const std::string &reason,
+                              const std::string &text)
   {
-    if constexpr (dim == 2)
-      {
-        if (!growth_table)
-          growth_table = &open_table("crack_growth.csv",
-                                     {"advance",
-                                      "step",
-                                      "time",
-                                      "crack",
-                                      "x",
-                                      "y",
-                                      "direction",
-                                      "length",
-                                      "released_energy",
-                                      "dissipated_energy",
-                                      "load_factor",
-                                      "mean_load_factor",
-                                      "energy_of_core_growth"});
-        recent_loads.push_back(load_factor);
-        if (recent_loads.size() > 3)
-          recent_loads.erase(recent_loads.begin());
-        const double mean =
-          std::accumulate(recent_loads.begin(), recent_loads.end(), 0.) /
-          recent_loads.size();
-        const auto &corners = advance.facet.corners;
-        const auto  along   = corners[1] - corners[0];
-        growth_table->write_row(
-          {n_advances,
-           step.number,
-           step.time,
-           parameters.pre_cracks[advance.facet.crack].name,
-           corners[1][0],
-           corners[1][1],
-           std::atan2(along[1], along[0]) * 180. / dealii::numbers::PI,
-           advance.length,
-           advance.released,
-           parameters.growth.fracture_energy * advance.length,
-           load_factor,
-           mean,
-           advance.switched});
-        log << "  advance " << n_advances << ": crack '"
-            << parameters.pre_cracks[advance.facet.crack].name << "' to ("
-            << corners[1] << "), load factor " << load_factor << std::endl;
-      }
+    growth_end = reason;
+    log << "  " << text << std::endl;
   }
 
   template <int dim>
-  void
+  bool
   Simulation<dim>::grow_cracks(Method         &method,
                                Step           &step,
                                const OnStep   &on_step,
                                const OnNewton &on_newton)
   {
     const double G_c = parameters.growth.fracture_energy;
+    if (n_advances == 0)
+      parts_at_start = n_large_parts();
     while (n_advances < parameters.growth.maximum_advances)
       {
+        if (n_large_parts() > parts_at_start)
+          {
+            end_growth("separated", "the body is separated");
+            return false;
+          }
         auto advance = best_advance(method, on_newton);
         if (!advance || advance->released < G_c * advance->length)
-          return;
+          return true;
+        if (!std::isfinite(advance->released))
+          {
+            end_growth("separated", loose_piece);
+            return false;
+          }
         cracks.append({advance->facet});
         method = std::move(advance->after);
         ++n_advances;
@@ -301,12 +157,12 @@ namespace Perimorph::Application
         released_energy += advance->released;
         dissipated_energy += G_c * advance->length;
         grown_length += advance->length;
-        write_advance(*advance,
-                      step,
-                      std::sqrt(G_c * advance->length / advance->released));
+        write_advance(*advance, step);
         on_step(step);
       }
+    growth_end = "largest number of advances";
     log.warning("the largest number of advances was reached");
+    return true;
   }
 
   template <int dim>
@@ -319,7 +175,7 @@ namespace Perimorph::Application
     if (parameters.growth.bonds)
       return break_overloaded_bonds(method, step, on_step);
     if (parameters.growth.active)
-      grow_cracks(method, step, on_step, on_newton);
+      return grow_cracks(method, step, on_step, on_newton);
     return true;
   }
 
@@ -468,17 +324,30 @@ namespace Perimorph::Application
     const double G_c  = parameters.growth.fracture_energy;
     Step         step = progress.step;
     start_events(method, step, on_newton);
+    if (n_advances == 0)
+      parts_at_start = n_large_parts();
     while (n_advances < parameters.growth.maximum_advances)
       {
+        if (n_large_parts() > parts_at_start)
+          {
+            end_growth("separated", "the body is separated");
+            return true;
+          }
         auto advance = best_advance(method, on_newton);
         if (!advance)
           {
-            log << "  no tip is left" << std::endl;
+            end_growth("no tip left", "no tip is left");
             return true;
           }
         if (!(advance->released > 0.))
           {
-            log << "  an advance would release no energy" << std::endl;
+            end_growth("no energy released",
+                       "an advance would release no energy");
+            return true;
+          }
+        if (!std::isfinite(advance->released))
+          {
+            end_growth("separated", loose_piece);
             return true;
           }
         if (!counts_work)
@@ -496,53 +365,52 @@ namespace Perimorph::Application
         released_energy += advance->released;
         dissipated_energy += G_c * advance->length;
         grown_length += advance->length;
-        write_advance(*advance, step, method.time);
+        write_advance(*advance, step);
         progress.number = n_advances;
         on_step(step);
       }
+    growth_end = "largest number of advances";
     log.warning("the largest number of advances was reached");
     return false;
   }
 
-#define PERIMORPH_INSTANTIATE(dim)                                            \
-  template double Simulation<dim>::potential_energy(const Method &) const;    \
-  template Simulation<dim>::Method Simulation<dim>::solve_with(               \
-    const Bonds::CrackSet<dim> &,                                             \
-    const Mesh::RegionMap &,                                                  \
-    const Method &);                                                          \
-  template void   Simulation<dim>::continue_from(const Method &, Method &);   \
-  template double Simulation<dim>::grow_core(Method &,                        \
-                                             const Mesh::RegionParameters &); \
-  template void   Simulation<dim>::scale_to(double,                           \
-                                          Method &,                         \
-                                          Step &,                           \
-                                          const OnNewton &);                \
-  template std::optional<Simulation<dim>::Advance>                            \
-                Simulation<dim>::best_advance(Method &, const OnNewton &);    \
-  template void Simulation<dim>::write_advance(const Advance &,               \
-                                               const Step &,                  \
-                                               double);                       \
-  template void Simulation<dim>::grow_cracks(Method &,                        \
-                                             Step &,                          \
-                                             const OnStep &,                  \
-                                             const OnNewton &);               \
-  template bool Simulation<dim>::grow_at_fixed_loads(Method &,                \
-                                                     Step &,                  \
-                                                     const OnStep &,          \
-                                                     const OnNewton &);       \
-  template void Simulation<dim>::start_events(Method &,                       \
-                                              Step &,                         \
-                                              const OnNewton &);              \
-  template void Simulation<dim>::rise_to(double,                              \
+#define PERIMORPH_INSTANTIATE(dim)                                              \
+  template double Simulation<dim>::potential_energy(const Method &) const;      \
+  template Simulation<dim>::Method Simulation<dim>::solve_with(                 \
+    const Bonds::CrackSet<dim> &,                                               \
+    const Mesh::RegionMap &,                                                    \
+    const Method &);                                                            \
+  template void   Simulation<dim>::rise_to(double,                              \
                                          Method &,                            \
                                          Step &,                              \
                                          const OnNewton &);                   \
-  template void Simulation<dim>::find_load(Advance &,                         \
+  template void   Simulation<dim>::find_load(Advance &,                         \
                                            Method &,                          \
                                            Step &,                            \
                                            const OnNewton &);                 \
-  template bool Simulation<dim>::follow_growth_events(Method &,               \
-                                                      const OnStep &,         \
+  template void   Simulation<dim>::continue_from(const Method &, Method &);     \
+  template double Simulation<dim>::grow_core(Method &,                          \
+                                             const Mesh::RegionParameters &);   \
+  template void   Simulation<dim>::scale_to(double,                             \
+                                          Method &,                           \
+                                          Step &,                             \
+                                          const OnNewton &);                  \
+  template unsigned int Simulation<dim>::n_large_parts() const;                 \
+  template void         Simulation<dim>::end_growth(const std::string &,        \
+                                            const std::string &);       \
+  template bool         Simulation<dim>::grow_cracks(Method &,                  \
+                                             Step &,                    \
+                                             const OnStep &,            \
+                                             const OnNewton &);         \
+  template bool         Simulation<dim>::grow_at_fixed_loads(Method &,          \
+                                                     Step &,            \
+                                                     const OnStep &,    \
+                                                     const OnNewton &); \
+  template void         Simulation<dim>::start_events(Method &,                 \
+                                              Step &,                   \
+                                              const OnNewton &);        \
+  template bool         Simulation<dim>::follow_growth_events(Method &,         \
+                                                      const OnStep &,   \
                                                       const OnNewton &);
 
   PERIMORPH_INSTANTIATE(2)

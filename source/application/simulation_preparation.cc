@@ -50,7 +50,10 @@ namespace Perimorph::Application
                                                                 cracks);
       });
     if (supports && loads)
-      errors.collect([&]() { hold_rigid_motion(); });
+      {
+        errors.collect([&]() { check_crack_mouths(); });
+        errors.collect([&]() { hold_rigid_motion(); });
+      }
     errors.throw_if_any();
     warn_if_nothing_happens();
     if (parameters.growth.bonds)
@@ -117,6 +120,54 @@ namespace Perimorph::Application
     for (const auto &line : parameters.pre_cracks)
       names.push_back(line.name);
     check_cracks_in_core(mesh->nodal(), region, cracks, names);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::check_crack_mouths()
+  {
+    const auto &nodal = mesh->nodal();
+    for (const auto &mouth : find_mouths(nodal, cracks))
+      {
+        const auto &facet  = cracks.facets()[mouth.facet];
+        const auto &nodes  = nodal.boundary_faces[mouth.face].nodes;
+        const auto &name   = parameters.pre_cracks[facet.crack].name;
+        const auto  normal = facet.normal();
+        for (int d = 0; d < dim; ++d)
+          {
+            // A plane of symmetry holds what lies along the crack only.
+            if (std::abs(normal[d]) < 0.1)
+              continue;
+            const bool held =
+              std::all_of(nodes.begin(), nodes.end(), [&](const unsigned n) {
+                return supports->entries().count(dim * n + d) > 0 ||
+                       !supports->boundary_motion_at(n).empty();
+              });
+            if (!held)
+              continue;
+            const auto entry    = supports->entries().find(dim * nodes[0] + d);
+            const auto boundary = entry == supports->entries().end()
+                                    ? supports->boundary_motion_at(nodes[0])
+                                    : entry->second.boundary;
+            throw Base::InputError(Base::InputMessage{
+              "parameter 'Cracks / pre-cracks'",
+              "'" + name + "' ends on boundary '" + boundary +
+                "', which is held across the crack",
+              "ends in the body, or on surfaces that can open",
+              "Let the crack end before it."});
+          }
+        for (const auto &load : loads->surface_loads())
+          {
+            const auto &faces = mesh->boundary(load.boundary, "loads");
+            if (std::find(faces.begin(), faces.end(), mouth.face) !=
+                faces.end())
+              log.warning("crack '" + name +
+                          "' opens a face of the loaded boundary '" +
+                          load.boundary +
+                          "': what acts on this face goes to its nodes as if "
+                          "there were no crack");
+          }
+      }
   }
 
   template <int dim>

@@ -8,6 +8,7 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 
 namespace Perimorph::Application
 {
@@ -221,8 +222,7 @@ namespace Perimorph::Application
 
   template <int dim>
   std::vector<NamedQuantity>
-  Simulation<dim>::quantities(const Method     &method,
-                              const State<dim> &state) const
+  Simulation<dim>::quantities(const Method &method, const State<dim> &state)
   {
     auto       list = post_processing->evaluate(state);
     const bool own  = method.region.n_core + method.region.n_blending > 0 ||
@@ -230,11 +230,25 @@ namespace Perimorph::Application
     // The companion with finite elements has no cracks; those made of broken
     // bonds have no tips.
     if (own && !parameters.growth.bonds)
-      for (const auto &quantity : post_processing->crack_quantities(
-             state,
-             method.region,
-             method.problem->correspondence_families()))
-        list.push_back(quantity);
+      {
+        std::map<std::string, std::string> without_room;
+        for (const auto &quantity : post_processing->crack_quantities(
+               state,
+               method.region,
+               method.problem->correspondence_families(),
+               without_room))
+          list.push_back(quantity);
+        for (const auto &[tip, reason] : without_room)
+          {
+            // Once per tip: the numbers differ from state to state.
+            const auto about = [start = tip + ": "](const std::string &text) {
+              return text.compare(0, start.size(), start) == 0;
+            };
+            const auto &said = log.warnings();
+            if (std::none_of(said.begin(), said.end(), about))
+              log.warning(tip + ": " + reason);
+          }
+      }
     return list;
   }
 
@@ -244,7 +258,10 @@ namespace Perimorph::Application
   {
     const auto timer = timing.scope("recovery");
     for (const auto &quantity : quantities(method, state))
-      result->set_quantity(quantity.name, quantity.value, quantity.unit);
+      if (quantity.exists)
+        result->set_quantity(quantity.name, quantity.value, quantity.unit);
+    if (parameters.growth.active)
+      report_cracks(method);
     for (const auto &reference : parameters.reference_values)
       result->set_reference(reference.first, reference.second);
     Base::collectively(communicator, [&]() {
@@ -280,9 +297,10 @@ namespace Perimorph::Application
       }
     const auto companion = gather(method);
     for (const auto &quantity : quantities(method, companion))
-      result->set_companion_quantity(quantity.name,
-                                     quantity.value,
-                                     quantity.unit);
+      if (quantity.exists)
+        result->set_companion_quantity(quantity.name,
+                                       quantity.value,
+                                       quantity.unit);
     auto difference = state.displacement;
     for (unsigned int n = 0; n < difference.size(); ++n)
       difference[n] -= companion.displacement[n];
@@ -302,6 +320,17 @@ namespace Perimorph::Application
   {
     for (const auto &file : fields->files())
       files.push_back(file);
+    if (parameters.growth.active)
+      {
+        result->set("growth", "end", growth_end);
+        result->set("growth",
+                    parameters.growth.bonds ? "events" : "advances",
+                    parameters.growth.bonds ? n_events : n_advances);
+        if (!parameters.growth.bonds)
+          result->set("growth", "crack_growth", grown_length);
+        result->set("growth", "released_energy", released_energy);
+        result->set("growth", "dissipated_energy", dissipated_energy);
+      }
     const auto table  = timing.table();
     const auto memory = Base::peak_memory(communicator);
     result->set_status(status);

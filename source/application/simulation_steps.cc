@@ -340,11 +340,16 @@ namespace Perimorph::Application
             }
           std::vector<Output::CsvCell> row = {step.number, step.time};
           for (const auto &quantity : values)
-            row.push_back(quantity.value);
+            row.push_back(quantity.exists ? Output::CsvCell(quantity.value)
+                                          : Output::CsvCell(""));
           quantity_table->write_row(row);
         }
+      // Several states of growth may have one load.
       if (parameters.write_fields)
-        write_fields(method, state, step.number, step.time);
+        write_fields(method,
+                     state,
+                     step.number,
+                     parameters.growth.active ? step.number : step.time);
       progress.step = step;
       if (!step.between)
         write_checkpoint(method, state);

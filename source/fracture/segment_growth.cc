@@ -94,12 +94,10 @@ namespace Perimorph::Fracture
   }
 
   double
-  closing_length(const Mesh::NodalMesh<2> &mesh,
+  distance_ahead(const Mesh::NodalMesh<2> &mesh,
                  const Bonds::CrackSet<2> &cracks,
                  const CrackTip           &tip,
-                 const double              angle,
-                 const double              length,
-                 const double              spacing)
+                 const double              angle)
   {
     const auto along   = direction(tip, angle);
     double     nearest = std::numeric_limits<double>::infinity();
@@ -117,6 +115,18 @@ namespace Perimorph::Fracture
                                             along,
                                             mesh.nodes[face.nodes[0]],
                                             mesh.nodes[face.nodes[1]]));
+    return nearest;
+  }
+
+  double
+  closing_length(const Mesh::NodalMesh<2> &mesh,
+                 const Bonds::CrackSet<2> &cracks,
+                 const CrackTip           &tip,
+                 const double              angle,
+                 const double              length,
+                 const double              spacing)
+  {
+    const double nearest = distance_ahead(mesh, cracks, tip, angle);
     return nearest < length + 2.2 * spacing ? nearest + 0.1 * length : length;
   }
 } // namespace Perimorph::Fracture

@@ -154,6 +154,7 @@ namespace Perimorph::Output
     log << '\n';
 
     print_quantities(log, results);
+    print_section(log, results, "growth", "Growth of cracks");
     print_section(log, results, "checks", "Checks");
     print_section(log, results, "solver", "Solver");
     print_section(log, results, "skipped", "Not done");

@@ -58,6 +58,11 @@ REGIONS = [
     row("crack outside of the body", ["'Cracks / pre-cracks'",
                                       "'c' outside of the body"],
         {"Cracks/pre-cracks": "c: 3 0.5 to 4 0.5"}),
+    row("crack that ends where the body is held", [
+        "'Cracks / pre-cracks'", "'c' ends on boundary 'left'",
+        "held across the crack"],
+        {"Cracks/pre-cracks": "c: 0 0.4 to 0.4 0.4",
+         DISPLACEMENT: "left: x = 0, y = 0; right: x = 1e-3"}),
     row("crack through elements", [
         "'Cracks / pre-cracks'", "where elements carry a part",
         "in the peridynamic core", "larger 'Peridynamics / core size'"],

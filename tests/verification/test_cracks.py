@@ -10,6 +10,7 @@ numerical study, whose numbers the limits come from. --extent long adds
 meshes, horizon ratios, angles and h/a = 1/10.
 """
 
+import json
 import math
 import os
 
@@ -356,6 +357,37 @@ def growth_by_load_steps(study):
                 solution["energy_balance"], 1e-8)
 
 
+def ends_of_growth(study):
+    """A body that is cut through is the end of a run and no failure; the last
+    advances, where no domain integral has room, keep to the line."""
+    ligament = {"Cracks/maximum advances": 100}
+    for what, crack, more in (
+        ("events", (0., 0., 1., 0.), {}),
+        ("events, inclined", (0., -.1, 1., .1), {}),
+        ("load steps", (0., 0., 1., 0.), {
+            "Cracks/growth control": "load steps",
+            "Load steps/number of steps": 2
+        }),
+        ("tractions", (0., 0., 1., 0.), {
+            "Boundary conditions/displacement": "",
+            "Boundary conditions/point displacement": "",
+            "Boundary conditions/remove rigid motion": "true",
+            "Boundary conditions/traction": "y+: y = t; y-: y = -t"
+        })):
+        solution = strip(study, "gmsh", 2, crack, 1, **ligament, **more)
+        path = os.path.join(solution.folder or "", "results.json")
+        end = ""
+        if os.path.exists(path):
+            with open(path) as file:
+                end = json.load(file).get("growth", {}).get("end")
+        study.row(what + ": cut through", solution["energy_balance"], None,
+                  end, end == "separated")
+        ordinates = solution.table("crack_growth").get("y", [math.nan])
+        if crack[1] == crack[3]:
+            study.below(what + ": path off the line, h",
+                        max(abs(y) for y in ordinates) * 32., .6)
+
+
 def kinks(study):
     """First advance of a crack under mixed mode against the direction of
     the largest hoop stress, from exact factors (slant crack) or from those
@@ -406,6 +438,7 @@ def main():
         ("crack along an arc", arc_crack),
         ("growth of an edge crack in a strip", growth_of_edge_crack),
         ("growth by load steps", growth_by_load_steps),
+        ("ends of growth", ends_of_growth),
         ("kinks", kinks)):
         if study.part(name):
             part(study)

@@ -22,6 +22,25 @@ namespace Perimorph::Application
   std::vector<Parameters::Feature>
   crack_features(const Bonds::CrackSet<dim> &cracks);
 
+  /// Part of the body of each node, from 0 on: nodes of a cell are of one part
+  /// unless a crack passes between them.
+  template <int dim>
+  std::vector<unsigned int>
+  parts_of_body(const Mesh::NodalMesh<dim> &mesh,
+                const Bonds::CrackSet<dim> &cracks);
+
+  /// A face of the surface that a crack opens.
+  struct CrackMouth
+  {
+    unsigned int face;  ///< index into NodalMesh::boundary_faces
+    unsigned int facet; ///< of the cracks
+  };
+
+  template <int dim>
+  std::vector<CrackMouth>
+  find_mouths(const Mesh::NodalMesh<dim> &mesh,
+              const Bonds::CrackSet<dim> &cracks);
+
   /// Cracks must run where peridynamics carries all.
   /// @param names  of the cracks
   /// @throws Base::InputError  a crack that leaves the peridynamic core

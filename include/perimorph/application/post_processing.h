@@ -7,7 +7,9 @@
 #include <perimorph/fracture/probes.h>
 #include <perimorph/fracture/reference_data.h>
 
+#include <array>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,6 +33,7 @@ namespace Perimorph::Application
     std::string name;
     double      value;
     std::string unit;
+    bool        exists = true; ///< false: this state does not have it
   };
 
   /// Everything that is read off a state: stress concentration, probes,
@@ -54,13 +57,16 @@ namespace Perimorph::Application
     evaluate(const State<dim> &state) const;
 
     /// J, stress intensity factors and T-stress at the tips (2D) or along the
-    /// fronts (3D) of the cracks; NaN where a tip is no more or has no room for
-    /// a domain integral. No cracks: none.
+    /// fronts (3D) that the cracks had at the start, whether they exist (a tip
+    /// may be through, or without room for a domain integral) or not. No
+    /// cracks: none.
     /// @param families  of this rank; empty: the law in all cells
+    /// @param[out] without_room  names of tips, and why they have no factors
     std::vector<NamedQuantity>
     crack_quantities(const State<dim>                   &state,
                      const Mesh::RegionMap              &region,
-                     const Peridynamics::FamilySet<dim> &families) const;
+                     const Peridynamics::FamilySet<dim> &families,
+                     std::map<std::string, std::string> &without_room) const;
 
     /// At the tips of the cracks, in the order of Fracture::find_tips(); none
     /// in 3D.
@@ -148,6 +154,8 @@ namespace Perimorph::Application
     std::vector<Fracture::ReferenceData<dim>>       reference_data;
     const Bonds::CrackSet<dim>                     &cracks;
     std::vector<std::string>                        tip_names;
-    std::vector<Fracture::MirrorPlane<dim>>         planes;
+    /// CrackTip::root of each name, in 2D.
+    std::vector<std::array<unsigned int, 2>> tip_roots;
+    std::vector<Fracture::MirrorPlane<dim>>  planes;
   };
 } // namespace Perimorph::Application

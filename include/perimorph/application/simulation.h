@@ -100,6 +100,10 @@ namespace Perimorph::Application
     place_cracks();
     void
     check_cracks() const;
+    /// Cracks that open the surface: not where it is held across them.
+    /// @throws Base::InputError
+    void
+    check_crack_mouths();
     void
     hold_rigid_motion();
     void
@@ -156,13 +160,15 @@ namespace Perimorph::Application
                const OnNewton &on_newton);
     /// Growth of cracks: advances at the loads of the state of a method while
     /// one releases its fracture energy; on_step gets the state after each.
-    void
+    /// @return  false if the body is separated
+    bool
     grow_cracks(Method         &method,
                 Step           &step,
                 const OnStep   &on_step,
                 const OnNewton &on_newton);
     /// Scales the loads of the end time so that each advance is just possible;
     /// on_step gets the states before and after each.
+    /// Ends when the body is separated or no tip is left.
     /// @return  false if the largest number of advances was reached
     bool
     follow_growth_events(Method         &method,
@@ -185,10 +191,12 @@ namespace Perimorph::Application
     {
       Fracture::CrackTip     tip;
       Bonds::CrackFacet<dim> facet;
-      double                 length;   ///< that is new crack in the body
-      double                 released; ///< potential energy at fixed loads
-      double                 switched; ///< change by the growth of the core
-      Method                 after;    ///< the state behind it
+      double                 length; ///< that is new crack in the body
+      /// Potential energy at fixed loads; infinite if it cuts off what nothing
+      /// holds, so that there is no state after it.
+      double released;
+      double switched; ///< change by the growth of the core
+      Method after;    ///< the state behind it, if there is one
     };
     /// Brings both states of an advance to the load at which it releases its
     /// fracture energy.
@@ -207,6 +215,19 @@ namespace Perimorph::Application
     /// the method by one whose peridynamic core has room for it.
     std::optional<Advance>
     best_advance(Method &method, const OnNewton &on_newton);
+    /// Equilibrium with a longer crack at the loads of a method; none if it
+    /// cuts off what nothing holds.
+    std::optional<Method>
+    state_behind(const Bonds::CrackFacet<dim> &facet, const Method &method);
+    /// Parts of the body between the cracks that are more than debris.
+    unsigned int
+    n_large_parts() const;
+    /// Says why growth ended.
+    void
+    end_growth(const std::string &reason, const std::string &text);
+    /// Counts of the cracks and bonds of a state.
+    void
+    report_cracks(const Method &method);
     /// Follows the loads to the load of each event at which bonds break;
     /// on_step gets the states before and after each.
     /// @return  false if the largest number of events was reached
@@ -271,7 +292,7 @@ namespace Perimorph::Application
     void
     count_work(const State<dim> &state);
     void
-    write_advance(const Advance &advance, const Step &step, double load_factor);
+    write_advance(const Advance &advance, const Step &step);
     /// The run itself: follows the loads, writes tables and fields.
     bool
     solve_load_steps(Method &method);
@@ -289,7 +310,7 @@ namespace Perimorph::Application
     void
     evaluate(const Method &method, const State<dim> &state);
     std::vector<NamedQuantity>
-    quantities(const Method &method, const State<dim> &state) const;
+    quantities(const Method &method, const State<dim> &state);
     void
     compare_with_finite_elements(const State<dim> &state);
     void
@@ -336,10 +357,10 @@ namespace Perimorph::Application
     bool                                        point_supports_checked = false;
 
     // Growth of cracks.
-    Output::CsvWriter     *growth_table = nullptr;
-    unsigned int           n_advances   = 0;
-    std::vector<double>    recent_loads; ///< of the advances
-    std::set<unsigned int> grown;        ///< facets that tips start from
+    Output::CsvWriter  *growth_table = nullptr;
+    unsigned int        n_advances   = 0;
+    std::vector<double> recent_loads; ///< of the advances
+    std::string         growth_end = "end of the loads";
     double released_energy = 0., dissipated_energy = 0., grown_length = 0.;
     double switched_energy = 0.; ///< change by the growth of the core
 

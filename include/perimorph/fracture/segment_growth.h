@@ -39,6 +39,14 @@ namespace Perimorph::Fracture
                 double          length,
                 unsigned int    step);
 
+  /// Distance from a tip, in a direction, to the surface or another crack;
+  /// infinite without.
+  double
+  distance_ahead(const Mesh::NodalMesh<2> &mesh,
+                 const Bonds::CrackSet<2> &cracks,
+                 const CrackTip           &tip,
+                 double                    angle);
+
   /// Length of an advance that does not stop short of a free surface or of
   /// another crack: where one lies less than 2.2 spacings ahead of its end the
   /// advance goes on to a tenth of the length beyond it (numerics-cracks.md,

@@ -1,0 +1,275 @@
+#include <perimorph/application/crack_setup.h>
+#include <perimorph/application/simulation.h>
+#include <perimorph/base/log.h>
+#include <perimorph/fracture/segment_growth.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace Perimorph::Application
+{
+  namespace
+  {
+    template <int dim>
+    double
+    horizon_at(const Mesh::NodalMesh<dim> &mesh,
+               const Mesh::RegionMap      &region,
+               const dealii::Point<dim>   &point)
+    {
+      double       nearest = std::numeric_limits<double>::infinity();
+      unsigned int node    = 0;
+      for (unsigned int n = 0; n < mesh.n_nodes(); ++n)
+        if (region.alpha[n] > 0. && mesh.nodes[n].distance(point) < nearest)
+          {
+            nearest = mesh.nodes[n].distance(point);
+            node    = n;
+          }
+      return region.horizon[node];
+    }
+
+    /// Length of a facet in the body.
+    template <int dim>
+    double
+    length_inside(const Mesh::NodalMesh<dim>   &mesh,
+                  const Bonds::CrackFacet<dim> &facet)
+    {
+      double     length = 0.;
+      const auto points =
+        Bonds::crack_points(mesh, Bonds::CrackSet<dim>({facet}));
+      for (const auto &point : points)
+        length += point.measure;
+      return length;
+    }
+  } // namespace
+
+  template <int dim>
+  std::optional<typename Simulation<dim>::Method>
+  Simulation<dim>::state_behind(const Bonds::CrackFacet<dim> &facet,
+                                const Method                 &method)
+  {
+    auto longer = cracks;
+    longer.append({facet});
+    const auto count_parts = [&](const Bonds::CrackSet<dim> &set) {
+      const auto parts = parts_of_body(mesh->nodal(), set);
+      return *std::max_element(parts.begin(), parts.end());
+    };
+    const bool cuts_off = count_parts(longer) > count_parts(cracks);
+    // Loads move a loose piece without end.
+    if (cuts_off && !loads->empty())
+      return std::nullopt;
+    try
+      {
+        return solve_with(longer, method.region, method);
+      }
+    catch (const Base::SolveError &)
+      {
+        if (cuts_off)
+          return std::nullopt;
+        throw;
+      }
+  }
+
+  template <int dim>
+  std::optional<typename Simulation<dim>::Advance>
+  Simulation<dim>::best_advance([[maybe_unused]] Method         &method,
+                                [[maybe_unused]] const OnNewton &on_newton)
+  {
+    if constexpr (dim == 2)
+      {
+        const auto &nodal = mesh->nodal();
+        const auto  tips  = Fracture::find_tips(nodal, cracks);
+        if (tips.empty())
+          return std::nullopt;
+
+        // Probes: two horizons long, in a fan ahead of each tip.
+        struct Fan
+        {
+          double                horizon, spacing, length;
+          std::vector<double>   angles;
+          std::optional<double> direction; ///< known without probes
+        };
+        const auto factors = post_processing->tip_quantities(
+          gather(method),
+          method.region,
+          method.problem->correspondence_families());
+        std::vector<Fan> fans;
+        auto             wider = parameters.region;
+        for (unsigned int t = 0; t < tips.size(); ++t)
+          {
+            const auto &tip = tips[t];
+            Fan         fan;
+            fan.horizon = horizon_at(nodal, method.region, tip.frame.origin);
+            fan.spacing = fan.horizon / parameters.region.horizon_ratio;
+            fan.length  = parameters.growth.advance.in_horizons
+                            ? parameters.growth.advance.value * fan.horizon
+                            : parameters.growth.advance.value;
+            fan.angles =
+              Fracture::probe_angles(cracks.facets()[tip.facet].step == 0);
+            if (!factors[t].values.empty() && !parameters.finite_strain())
+              fan.direction =
+                Fracture::hoop_angle(factors[t].values.front().K_I,
+                                     factors[t].values.front().K_II);
+            // Probes that would reach through a ligament say nothing.
+            else if (Fracture::distance_ahead(nodal, cracks, tip, 0.) <
+                     2. * fan.horizon + 2.2 * fan.spacing)
+              fan.direction = 0.;
+            fans.push_back(fan);
+          }
+        // The core has room before bonds there are cut, for some advances at
+        // once; it does not shrink.
+        const auto with_room = [&](const double n_lengths) {
+          std::vector<Bonds::CrackFacet<2>> outline;
+          for (unsigned int t = 0; t < tips.size(); ++t)
+            {
+              const auto &fan = fans[t];
+              // An advance may be longer where it meets a surface.
+              const double along = n_lengths * fan.length + 2.2 * fan.spacing;
+              if (fan.direction)
+                outline.push_back(
+                  Fracture::advance_facet(tips[t], *fan.direction, along, 0));
+              else
+                for (const double angle :
+                     {fan.angles.front(), 0., fan.angles.back()})
+                  outline.push_back(
+                    Fracture::advance_facet(tips[t],
+                                            angle,
+                                            std::max(2. * fan.horizon, along),
+                                            0));
+            }
+          auto wider = parameters.region;
+          for (const auto &feature :
+               crack_features(Bonds::CrackSet<2>(outline)))
+            wider.features.push_back(feature);
+          return wider;
+        };
+        const auto needed = make_region_map(*mesh, with_room(1.)).alpha;
+        bool       fits   = true;
+        for (unsigned int n = 0; n < needed.size(); ++n)
+          fits = fits && needed[n] <= method.region.alpha[n];
+        const double switched    = fits ? 0. : grow_core(method, with_room(3.));
+        const double start       = potential_energy(method);
+        const auto   released_by = [&](const auto &after) {
+          return after ? start - potential_energy(*after)
+                         : std::numeric_limits<double>::infinity();
+        };
+        std::optional<Advance> best;
+        for (unsigned int t = 0; t < tips.size(); ++t)
+          {
+            const auto &tip = tips[t];
+            const auto &fan = fans[t];
+            // Without the probes that cut something off.
+            std::vector<double> angles, drops;
+            if (!fan.direction)
+              for (const double angle : fan.angles)
+                {
+                  const double drop = released_by(state_behind(
+                    Fracture::advance_facet(tip, angle, 2. * fan.horizon, 0),
+                    method));
+                  if (std::isfinite(drop))
+                    {
+                      angles.push_back(angle);
+                      drops.push_back(drop);
+                    }
+                }
+            const double angle  = fan.direction ? *fan.direction
+                                  : drops.size() < 3
+                                    ? 0.
+                                    : Fracture::best_angle(angles, drops);
+            const double length = Fracture::closing_length(nodal,
+                                                           cracks,
+                                                           tip,
+                                                           angle,
+                                                           fan.length,
+                                                           fan.spacing);
+            Advance      advance;
+            advance.tip = tip;
+            advance.facet =
+              Fracture::advance_facet(tip, angle, length, n_advances + 1);
+            advance.length   = length_inside(nodal, advance.facet);
+            advance.switched = switched;
+            auto after       = state_behind(advance.facet, method);
+            advance.released = released_by(after);
+            if (after)
+              advance.after = std::move(*after);
+            if (!best || advance.released * best->length >
+                           best->released * advance.length)
+              best = std::move(advance);
+          }
+        return best;
+      }
+    else
+      return std::nullopt;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::write_advance([[maybe_unused]] const Advance &advance,
+                                 [[maybe_unused]] const Step    &step)
+  {
+    if constexpr (dim == 2)
+      {
+        if (!growth_table)
+          growth_table = &open_table("crack_growth.csv",
+                                     {"advance",
+                                      "step",
+                                      "time",
+                                      "crack",
+                                      "x",
+                                      "y",
+                                      "direction",
+                                      "length",
+                                      "released_energy",
+                                      "dissipated_energy",
+                                      "load_factor",
+                                      "mean_load_factor",
+                                      "energy_of_core_growth"});
+        // Where the advance is just possible, of loads in proportion to t; by
+        // events that is the time itself.
+        const double energy =
+          parameters.growth.fracture_energy * advance.length;
+        const double load_factor =
+          step.time * std::sqrt(energy / advance.released);
+        recent_loads.push_back(load_factor);
+        if (recent_loads.size() > 3)
+          recent_loads.erase(recent_loads.begin());
+        const double mean =
+          std::accumulate(recent_loads.begin(), recent_loads.end(), 0.) /
+          recent_loads.size();
+        const auto &corners = advance.facet.corners;
+        const auto  along   = corners[1] - corners[0];
+        growth_table->write_row(
+          {n_advances,
+           step.number,
+           step.time,
+           parameters.pre_cracks[advance.facet.crack].name,
+           corners[1][0],
+           corners[1][1],
+           std::atan2(along[1], along[0]) * 180. / dealii::numbers::PI,
+           advance.length,
+           advance.released,
+           energy,
+           load_factor,
+           mean,
+           advance.switched});
+        log << "  advance " << n_advances << ": crack '"
+            << parameters.pre_cracks[advance.facet.crack].name << "' to ("
+            << corners[1] << "), load factor " << load_factor << std::endl;
+      }
+  }
+
+#define PERIMORPH_INSTANTIATE(dim)                                         \
+  template std::optional<Simulation<dim>::Method>                          \
+  Simulation<dim>::state_behind(const Bonds::CrackFacet<dim> &,            \
+                                const Method &);                           \
+  template std::optional<Simulation<dim>::Advance>                         \
+                Simulation<dim>::best_advance(Method &, const OnNewton &); \
+  template void Simulation<dim>::write_advance(const Advance &, const Step &);
+
+  PERIMORPH_INSTANTIATE(2)
+  PERIMORPH_INSTANTIATE(3)
+#undef PERIMORPH_INSTANTIATE
+} // namespace Perimorph::Application
