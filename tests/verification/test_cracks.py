@@ -22,6 +22,9 @@ NU = 1. / 3.
 # plate, a/b = 0.2. Collocation, six digits.
 CENTRE_CRACK_STRIP = 1.109384265
 CENTRE_CRACK_SQUARE = 1.055377645
+# The same at a/b = 0.1, 0.2 ... 0.5.
+SQUARE_FACTORS = (1.013946159, 1.055377645, 1.123191107, 1.216049761,
+                  1.333712151)
 # -dE1/da of the strip 1.5 x 1.03125, ends moved by -1 and 1, free to contract,
 # at a = 0.5, 0.55 ...: half strip of 4-node elements, h = 1/80 and 1/160, E1
 # extrapolated to h = 0 (a = 0.5, 0.6, 0.7, 0.8: 1.897, 1.903, 1.916, 1.929 in
@@ -348,6 +351,70 @@ def growth_of_edge_crack(study):
         study.below(what + "energy balance", solution["energy_balance"], 1e-8)
 
 
+def square_factor(ratio):
+    """K_I/(sigma sqrt(pi a)) of the square plate: Lagrange."""
+    total = 0.
+    for k, value in enumerate(SQUARE_FACTORS):
+        for j in range(len(SQUARE_FACTORS)):
+            if j != k:
+                value *= (10. * ratio - 1. - j) / (k - j)
+        total += value
+    return total
+
+
+def growth_of_centre_crack(study):
+    """The square plate of L4: both tips advance in turn, an advance of
+    one by dl makes half the crack length a longer by dl/2 and releases
+    G dl = f^2 K^2/E dl."""
+    stress, half, modulus, spacing = 10., 5., 192e3, .25
+    toughness = (CENTRE_CRACK_SQUARE * stress)**2 * math.pi * half / modulus
+    solution = study.solve(
+        write_parameters(
+            study.folder() + "/case.prm", {
+                "Mesh/file": os.path.join(SHIPPED, "plate_graded.geo"),
+                "Mesh/geometry parameters":
+                "hx = 25, hy = 25, fx = 8, fy = 4.125, nx = 64, ny = 33, "
+                "q = 1.1",
+                "Material/Young's modulus": modulus,
+                "Material/Poisson's ratio": "%.17g" % NU,
+                "Material/state": "plane stress",
+                "Peridynamics/horizon ratio": 2,
+                "Cracks/pre-cracks": "crack: -5 0 to 5 0",
+                "Cracks/growth": "segments",
+                "Cracks/growth control": "events",
+                "Cracks/fracture energy": "%.17g" % toughness,
+                "Cracks/maximum advances": 10,
+                "Boundary conditions/traction":
+                "top: y = 10*t; bottom: y = -10*t"
+            }))
+    table = solution.table("crack_growth")
+    a, drops, griffith, exact = half, [], [], []
+    for length, factor in zip(table["length"], table["load_factor"]):
+        energy = sum(
+            (square_factor((a + .5 * length * (k + .5) / 10.) / 25.) *
+             stress)**2 * math.pi * (a + .5 * length * (k + .5) / 10.) /
+            modulus * length / 10. for k in range(10))
+        a += .5 * length
+        drops.append(toughness * length / factor**2)
+        exact.append(energy)
+        griffith.append(math.sqrt(toughness * length / energy))
+    factors = table["load_factor"]
+    study.between("square plate: released/(G_c length)",
+                  sum(drops) / sum(exact), .95, 1.03)
+    study.note("single advances %.3f .. %.3f, %d advances to a = %.3f" %
+               (min(d / e for d, e in zip(drops, exact)),
+                max(d / e for d, e in zip(drops, exact)), len(drops), a))
+    # The first advance of each tip is left out.
+    errors = [percent(sum(factors[k - 2:k + 1]), sum(griffith[k - 2:k + 1]))
+              for k in range(4, len(factors))]
+    study.below("square plate: load, 3-advance mean, worst |error| %",
+                max(abs(error) for error in errors), 4.)
+    study.below("square plate: path off the line, h",
+                max(abs(y) for y in table["y"]) / spacing, .6)
+    study.below("square plate: energy balance", solution["energy_balance"],
+                1e-8)
+
+
 def growth_by_load_steps(study):
     solution = strip(study, "uniform", 2, (0., 0., .5, 0.), 100, **{
         "Cracks/growth control": "load steps",
@@ -437,6 +504,7 @@ def main():
         ("slant crack, infinite plate, h/a = 1/20", slant_crack),
         ("crack along an arc", arc_crack),
         ("growth of an edge crack in a strip", growth_of_edge_crack),
+        ("growth of a centre crack (L4)", growth_of_centre_crack),
         ("growth by load steps", growth_by_load_steps),
         ("ends of growth", ends_of_growth),
         ("kinks", kinks)):
