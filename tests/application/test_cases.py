@@ -107,6 +107,8 @@ GROWTH = {
     "edge_crack_growth.prm": 2,
     "inclined_edge_crack_growth.prm": 2,
     "two_cracks.prm": 2,
+    "notched_beam.prm": 2,
+    "l_shaped_panel.prm": 2,
 }
 CASES.update({
     name: (["Cracks/maximum advances=%d" % advances], {}, {})
