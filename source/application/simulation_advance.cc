@@ -127,18 +127,21 @@ namespace Perimorph::Application
             {
               const auto &fan = fans[t];
               // An advance may be longer where it meets a surface.
-              const double along = n_lengths * fan.length + 2.2 * fan.spacing;
+              const double more = 2.2 * fan.spacing;
               if (fan.direction)
                 outline.push_back(
-                  Fracture::advance_facet(tips[t], *fan.direction, along, 0));
+                  Fracture::advance_facet(tips[t],
+                                          *fan.direction,
+                                          n_lengths * fan.length + more,
+                                          0));
               else
                 for (const double angle :
                      {fan.angles.front(), 0., fan.angles.back()})
-                  outline.push_back(
-                    Fracture::advance_facet(tips[t],
-                                            angle,
-                                            std::max(2. * fan.horizon, along),
-                                            0));
+                  outline.push_back(Fracture::advance_facet(
+                    tips[t],
+                    angle,
+                    std::max(2. * fan.horizon, fan.length + more),
+                    0));
             }
           auto wider = parameters.region;
           for (const auto &feature :
