@@ -225,7 +225,7 @@ namespace Perimorph::Application
         for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
           {
             const double reach =
-              is_solid ? 1e-9 * nodal.spacing[n] : region.horizon[n];
+              (is_solid ? 0. : region.horizon[n]) + 1e-9 * nodal.spacing[n];
             if (distance
                   .closest_to_node(nodal,
                                    n,

@@ -143,7 +143,8 @@ namespace Perimorph::Application
                     std::max(2. * fan.horizon, fan.length + more),
                     0));
             }
-          auto wider = parameters.region;
+          auto wider          = parameters.region;
+          wider.may_fill_body = true;
           for (const auto &feature :
                crack_features(Bonds::CrackSet<2>(outline)))
             wider.features.push_back(feature);

@@ -85,7 +85,8 @@ namespace Perimorph::Application
     if (share_on_lattice(mesh->nodal(), region) > 0.5)
       log.warning("bonds break along the rows of a regular mesh; use an "
                   "unstructured one where cracks are to find their way");
-    if (Damage::sees_particles(parameters.growth.criterion))
+    if (Damage::sees_particles(parameters.growth.criterion) &&
+        parameters.growth.criterion != Damage::Criterion::bond_strain)
       log.warning("the criterion sees means over families, which hardly feel a "
                   "cut: it finds where damage starts, but damage becomes a "
                   "band several horizons wide instead of a crack");
@@ -198,8 +199,9 @@ namespace Perimorph::Application
         if (in_core)
           return first;
 
-        auto       wider = parameters.region;
-        const auto add   = [&](const std::array<unsigned int, 2> &nodes) {
+        auto wider          = parameters.region;
+        wider.may_fill_body = true;
+        const auto add      = [&](const std::array<unsigned int, 2> &nodes) {
           Parameters::Feature feature;
           feature.kind = Parameters::FeatureKind::segment;
           for (const unsigned int n : nodes)
@@ -319,9 +321,10 @@ namespace Perimorph::Application
       }
     catch (const Base::SolveError &error)
       {
-        if (loads->empty())
+        // Loads move a mechanism without end, too; or the largest part is
+        // held by nothing.
+        if (loads->empty() && !falls_apart)
           throw;
-        // Loads move a mechanism without end, too.
         end_growth("separated",
                    std::string("the body falls apart: ") + error.what());
         return false;

@@ -271,7 +271,9 @@ namespace Perimorph::Coupling
     for (unsigned int n = 0; n < parts.size(); ++n)
       {
         mean_spacing += mesh.nodal().spacing[n] / parts.size();
-        if ((parts[n] != largest || (!more.empty() && more[n])) &&
+        // A part of one node has no stiffness, not even if none is larger.
+        if ((parts[n] != largest || size[largest] == 1 ||
+             (!more.empty() && more[n])) &&
             mesh.nodal().owns_node(n))
           loose.push_back(node_partition->local(n));
       }

@@ -198,7 +198,8 @@ namespace Perimorph::Mesh
         "a region without any node of the mesh",
         "a core around the features that contains nodes",
         "Enlarge the core size, or place the feature inside the body."});
-    if (parameters.mode == Mode::coupled && map.n_elements == 0)
+    if (parameters.mode == Mode::coupled && map.n_elements == 0 &&
+        !parameters.may_fill_body)
       throw Base::InputError(Base::InputMessage{
         "parameter 'Peridynamics / core size'",
         "a peridynamic region that swallows the whole body",

@@ -369,7 +369,7 @@ BREAKING = [
         "'Cracks / fracture energy'", "a number > 0"],
         {"Cracks/growth": "bonds"}),
     row("negative fracture energy", ["'Cracks / fracture energy'", "-1"],
-        BONDS, {"Cracks/fracture energy": "-1"}),
+        BONDS, {"Cracks/fracture energy": "-1"}, n_errors=2),
     row("energy criterion of bond-based bonds", [
         "'Cracks / criterion'", "'critical energy' with model 'bond based'",
         "critical stretch"], BONDS, BOND_BASED,
@@ -383,6 +383,49 @@ BREAKING = [
         "'Cracks / growth'", "'bonds' with coupling 'force blending'",
         "energy blending"], BONDS,
         {"Peridynamics/coupling": "force blending"}),
+    row("stretch and fracture energy", [
+        "'Cracks / fracture energy'", "1 with criterion 'critical stretch' and "
+        "a 'critical stretch'"], BONDS,
+        {"Cracks/criterion": "critical stretch",
+         "Cracks/critical stretch": "0.01"}),
+    row("neither stretch nor fracture energy", [
+        "'Cracks / fracture energy'", "nothing or 0", "give a 'critical "
+        "stretch'"], {"Cracks/growth": "bonds",
+                      "Cracks/criterion": "critical stretch"}),
+    row("threshold of another criterion", [
+        "'Cracks / critical stretch'", "0.01 with criterion 'critical energy'"],
+        BONDS, {"Cracks/critical stretch": "0.01"}),
+    row("principal stress without a strength", [
+        "'Cracks / tensile strength'", "nothing or 0"],
+        {"Cracks/growth": "bonds",
+         "Cracks/criterion": "maximum principal stress"}),
+    row("strain without a threshold", [
+        "'Cracks / critical equivalent strain'", "a number > 0"],
+        {"Cracks/growth": "bonds", "Cracks/criterion": "equivalent strain"}),
+    row("friction without cohesion", [
+        "'Cracks / friction angle'", "The criterion does not ask for it"],
+        {"Cracks/growth": "bonds", "Cracks/tensile strength": "1",
+         "Cracks/criterion": "maximum principal stress",
+         "Cracks/friction angle": "30"}),
+    row("strain criterion of bond-based bonds", [
+        "'Cracks / criterion'", "'bond strain' with model 'bond based'",
+        "critical stretch"], {"Cracks/growth": "bonds"}, BOND_BASED,
+        {"Cracks/criterion": "bond strain",
+         "Cracks/critical bond strain": "0.01"}, n_errors=2),
+    row("protected boundary that is not there", [
+        "'Cracks / protected boundaries'", "'rigth'", "did you mean 'right'"],
+        BONDS, {"Cracks/protected boundaries": "left, rigth"}),
+    row("protected volume that is not there", [
+        "'Cracks / protected materials'", "'domian'", "did you mean 'domain'"],
+        BONDS, {"Cracks/protected materials": "domian"}),
+    row("name as protected region", [
+        "'Cracks / protected regions'", "'right'", "protected boundaries"],
+        BONDS, {"Cracks/protected regions": "right"}),
+    row("bad protected box", ["'Cracks / protected regions'"],
+        BONDS, {"Cracks/protected regions": "box 0 0 1"}),
+    row("protection without bonds that break", [
+        "'Cracks / protected boundaries'", "growth = bonds"],
+        {"Cracks/protected boundaries": "right"}),
     row("unknown criterion", ["'Cracks / criterion'", "'critical force'"],
         BONDS, {"Cracks/criterion": "critical force"}),
 ]

@@ -4,10 +4,10 @@
 
 namespace Perimorph::Damage
 {
-  // Measures of criteria that see the particles at the ends of a bond. All but
-  // the first know no direction and, being means over families, hardly see a
-  // cut: they find where damage starts, cracks by them are wide bands
-  // (numerics-damage.md, D4).
+  // Measures of criteria that see the particles at the ends of a bond. The
+  // first sees the bond itself too. The others know no direction and, being
+  // means over families, hardly see a cut: they find where damage starts, but
+  // cracks by them are wide bands (numerics-damage.md, D4).
 
   /// |eta_d| / |xi| with eta_d = eta - w eta - tr(eps) / 3 xi, w the mean
   /// rotation. Source: Ren et al. (2017), as in Hashim (2021), section 2.4.5;

@@ -44,6 +44,7 @@ namespace Perimorph::Mesh
     BlendingFunction blending_function              = BlendingFunction::cubic;
     double           horizon_ratio                  = 2.;
     double           horizon_length                 = 0.; ///< 0: use the ratio
+    bool             may_fill_body = false; ///< a core that has grown may
   };
 
   /// Blending weight and horizon of every node, identical on all ranks.
