@@ -195,6 +195,8 @@ namespace Perimorph::Application
               Fracture::advance_facet(tip, angle, length, n_advances + 1);
             advance.length   = length_inside(nodal, advance.facet);
             advance.switched = switched;
+            if (!factors[t].values.empty())
+              advance.J = factors[t].values.front().J;
             auto after       = state_behind(advance.facet, method);
             advance.released = released_by(after);
             if (after)
@@ -228,6 +230,8 @@ namespace Perimorph::Application
                                       "length",
                                       "released_energy",
                                       "dissipated_energy",
+                                      "energy_release_rate",
+                                      "J",
                                       "load_factor",
                                       "mean_load_factor",
                                       "energy_of_core_growth"});
@@ -256,6 +260,8 @@ namespace Perimorph::Application
            advance.length,
            advance.released,
            energy,
+           advance.released / advance.length,
+           advance.J ? Output::CsvCell(*advance.J) : Output::CsvCell(""),
            load_factor,
            mean,
            advance.switched});

@@ -280,8 +280,11 @@ namespace Perimorph::Application
         scale_to(factor * method.time, method, step, on_newton);
         scale_to(method.time, advance.after, step, on_newton);
         advance.released = needed;
+        if (advance.J)
+          *advance.J *= factor * factor;
         return;
       }
+    advance.J.reset();
     constexpr unsigned int most_iterations = 20;
     constexpr double       tolerance       = 1e-8;
     double                 exponent        = 2.;

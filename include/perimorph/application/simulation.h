@@ -197,6 +197,8 @@ namespace Perimorph::Application
       double released;
       double switched; ///< change by the growth of the core
       Method after;    ///< the state behind it, if there is one
+      /// Before it, by the domain integral where that has room.
+      std::optional<double> J;
     };
     /// Brings both states of an advance to the load at which it releases its
     /// fracture energy.
