@@ -411,7 +411,7 @@ BREAKING = [
         "'Cracks / criterion'", "'bond strain' with model 'bond based'",
         "critical stretch"], {"Cracks/growth": "bonds"}, BOND_BASED,
         {"Cracks/criterion": "bond strain",
-         "Cracks/critical bond strain": "0.01"}, n_errors=2),
+         "Cracks/critical bond strain": "0.01"}),
     row("protected boundary that is not there", [
         "'Cracks / protected boundaries'", "'rigth'", "did you mean 'right'"],
         BONDS, {"Cracks/protected boundaries": "left, rigth"}),

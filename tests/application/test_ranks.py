@@ -61,6 +61,9 @@ CASES = [
      [STRIP, TWO_ADVANCES] + LOAD_STEPS, False),
     ("growth bond by bond", "edge_crack_growth.prm",
      [STRIP, ADVANCES] + BONDS, False),
+    ("growth bond by bond, bond based", "edge_crack_growth.prm",
+     [STRIP, "Cracks/maximum advances=8", "Peridynamics/model=bond based"] +
+     BONDS, False),
     ("growth bond by bond in load steps", "edge_crack_growth.prm",
      [STRIP, ADVANCES] + BONDS + LOAD_STEPS, False),
 ]

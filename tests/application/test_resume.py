@@ -85,6 +85,12 @@ CASES = [
         "Cracks/growth control": "events",
         "Cracks/maximum advances": "5",
     }), (1, 8)),
+    ("bonds that soften by events", dict(STRIP, **{
+        "Cracks/growth": "bonds",
+        "Cracks/growth control": "events",
+        "Peridynamics/model": "bond based",
+        "Cracks/maximum advances": "8",
+    }), (1, 14)),
     ("bonds that break in load steps", dict(STRIP, **{
         "Cracks/growth": "bonds",
         "Cracks/maximum advances": "12",
