@@ -201,8 +201,10 @@ namespace Perimorph::Application
             advance.released = released_by(after);
             if (after)
               advance.after = std::move(*after);
+            // Tips that are equal but for round-off go in their order, on any
+            // number of ranks.
             if (!best || advance.released * best->length >
-                           best->released * advance.length)
+                           (1. + 1e-6) * best->released * advance.length)
               best = std::move(advance);
           }
         return best;
