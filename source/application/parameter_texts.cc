@@ -209,10 +209,10 @@ namespace Perimorph::Application
     prm.add_parameter(
       "softening teeth",
       softening_teeth,
-      "Of growth = bonds with model = bond based: bonds soften from their "
-      "largest force to none at four times its stretch, in so many steps that "
-      "together take the same energy; cracks grow nearer to the fracture "
-      "energy. 1: bonds break at once.",
+      "Of growth = bonds: bonds soften in so many steps. Model = bond based: "
+      "from their largest force to none at four times its stretch, with the "
+      "energy of a bond that breaks at once (1 step); cracks grow nearer to "
+      "the fracture energy. Both models with 'softening stretch': by that law.",
       Integer(1));
     prm.add_parameter("fracture energy",
                       fracture_energy,
@@ -223,6 +223,17 @@ namespace Perimorph::Application
                       "s_cr [-] of criterion = critical stretch, instead of a "
                       "'fracture energy'; 0: from that.",
                       Double(0.));
+    prm.add_parameter(
+      "softening stretch",
+      softening_stretch,
+      "s_min [-], less than 'critical stretch': bonds soften between both as "
+      "(1 - tanh(beta (2 s - s_min - s_cr) / (s_cr - s_min))) / 2, in "
+      "'softening teeth' steps. 0: they do not.",
+      Double(0.));
+    prm.add_parameter("softening steepness",
+                      softening_steepness,
+                      "beta [-] of 'softening stretch'.",
+                      PositiveDouble());
     prm.add_parameter("critical bond strain",
                       critical_bond_strain,
                       "Of criterion = bond strain: |eta_d| / |xi| [-], the "

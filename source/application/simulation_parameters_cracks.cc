@@ -113,7 +113,8 @@ namespace Perimorph::Application
   {
     const bool  bond_based = coupling.model == Coupling::Model::bond_based;
     const auto &names      = Damage::criterion_names();
-    growth.n_teeth         = bond_based ? texts.softening_teeth : 1;
+    growth.n_teeth =
+      bond_based || texts.softening_stretch > 0. ? texts.softening_teeth : 1;
     growth.criterion =
       texts.criterion == "automatic"
         ? (bond_based ? Damage::Criterion::critical_stretch
@@ -144,16 +145,18 @@ namespace Perimorph::Application
                                               Base::InputErrorCollector &errors)
   {
     using Damage::Criterion;
-    auto &limits             = growth.limits;
-    limits.fracture_energy   = texts.fracture_energy;
-    limits.calibration       = texts.energy_calibration;
-    limits.stretch           = texts.critical_stretch;
-    limits.bond_strain       = texts.critical_bond_strain;
-    limits.equivalent_strain = texts.critical_equivalent_strain;
-    limits.volumetric_strain = texts.critical_volumetric_strain;
-    limits.tensile_strength  = texts.tensile_strength;
-    limits.cohesion          = texts.cohesion;
-    limits.friction_angle    = texts.friction_angle;
+    auto &limits               = growth.limits;
+    limits.fracture_energy     = texts.fracture_energy;
+    limits.calibration         = texts.energy_calibration;
+    limits.stretch             = texts.critical_stretch;
+    limits.softening_stretch   = texts.softening_stretch;
+    limits.softening_steepness = texts.softening_steepness;
+    limits.bond_strain         = texts.critical_bond_strain;
+    limits.equivalent_strain   = texts.critical_equivalent_strain;
+    limits.volumetric_strain   = texts.critical_volumetric_strain;
+    limits.tensile_strength    = texts.tensile_strength;
+    limits.cohesion            = texts.cohesion;
+    limits.friction_angle      = texts.friction_angle;
 
     struct Entry
     {
@@ -178,6 +181,7 @@ namespace Perimorph::Application
            {"fracture energy", limits.fracture_energy, by_energy, by_energy},
            {"energy calibration", limits.calibration, by_energy, false},
            {"critical stretch", limits.stretch, stretch, false},
+           {"softening stretch", limits.softening_stretch, given, false},
            {"critical bond strain", limits.bond_strain, bond, bond},
            {"critical equivalent strain",
             limits.equivalent_strain,
@@ -210,6 +214,15 @@ namespace Perimorph::Application
                                "nothing",
                                "The criterion does not ask for it.");
         }
+    if (given && limits.softening_stretch >= limits.stretch)
+      {
+        std::ostringstream found, allowed;
+        found << limits.softening_stretch;
+        allowed << "less than the critical stretch, " << limits.stretch;
+        errors.add_parameter("Cracks / softening stretch",
+                             found.str(),
+                             allowed.str());
+      }
   }
 
   template <int dim>

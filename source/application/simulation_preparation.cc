@@ -61,7 +61,8 @@ namespace Perimorph::Application
         const auto &growth = parameters.growth;
         broken             = Bonds::BrokenBonds(growth.n_teeth);
         breaking_rule =
-          parameters.coupling.model == Coupling::Model::bond_based
+          parameters.coupling.model == Coupling::Model::bond_based ||
+              growth.n_teeth > 1
             ? Damage::make_saw_tooth_rule<dim>(growth.limits,
                                                growth.n_teeth,
                                                parameters.state)

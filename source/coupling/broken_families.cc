@@ -59,18 +59,24 @@ namespace Perimorph::Coupling
     Peridynamics::FamilySet<dim> set;
     for (std::size_t p = 0; p < families.n_particles(); ++p)
       {
-        const unsigned int node  = families.node[p];
-        const auto         begin = set.neighbor.size();
+        const unsigned int node   = families.node[p];
+        const auto         begin  = set.neighbor.size();
+        bool               softer = false;
         for (std::size_t b = families.offsets[p]; b < families.offsets[p + 1];
              ++b)
           if (!broken.contains(node, families.neighbor[b]))
             {
+              const double share =
+                broken.share_left(node, families.neighbor[b]);
+              softer = softer || share < 1.;
               set.neighbor.push_back(families.neighbor[b]);
-              set.gradient_weight.push_back(families.gradient_weight[b]);
+              set.gradient_weight.push_back(share *
+                                            families.gradient_weight[b]);
               set.bond_weight.push_back(families.bond_weight[b]);
             }
-        const bool is_whole = set.neighbor.size() - begin ==
-                              families.offsets[p + 1] - families.offsets[p];
+        const bool is_whole =
+          !softer && set.neighbor.size() - begin ==
+                       families.offsets[p + 1] - families.offsets[p];
         const Bonds::ParticleSeed particle{node, families.material[p]};
         if (is_whole)
           {
@@ -87,7 +93,8 @@ namespace Perimorph::Coupling
           rest[d][d] = 1.;
         for (std::size_t b = begin; b < set.neighbor.size(); ++b)
           {
-            set.bond_weight[b] = bond_weight(mesh,
+            set.bond_weight[b] = broken.share_left(node, set.neighbor[b]) *
+                                 bond_weight(mesh,
                                              node,
                                              set.neighbor[b],
                                              horizon[node],

@@ -1,5 +1,6 @@
 #include <perimorph/damage/saw_tooth.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -20,7 +21,11 @@ namespace Perimorph::Damage
                    const Materials::PlaneState state)
         : limits(limits)
         , state(state)
-        , teeth(n_teeth)
+        , teeth(limits.softening_stretch > 0.
+                  ? SawTooth(n_teeth,
+                             limits.softening_stretch / limits.stretch,
+                             limits.softening_steepness)
+                  : SawTooth(n_teeth))
       {}
 
       double
@@ -75,6 +80,22 @@ namespace Perimorph::Damage
       }
     for (double &stretch : stretches)
       stretch /= std::sqrt(energy);
+  }
+
+  SawTooth::SawTooth(const unsigned int n_teeth,
+                     const double       start,
+                     const double       steepness)
+  {
+    for (unsigned int l = 0; l < n_teeth; ++l)
+      {
+        const double mean_share = 1. - (l + 0.5) / n_teeth;
+        // T is not quite 1 and 0 at the ends of the range.
+        stretches.push_back(
+          std::clamp(0.5 * (1. + start) + 0.5 * (1. - start) / steepness *
+                                            std::atanh(1. - 2. * mean_share),
+                     start,
+                     1.));
+      }
   }
 
   template <int dim>

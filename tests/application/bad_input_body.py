@@ -412,6 +412,15 @@ BREAKING = [
         "critical stretch"], {"Cracks/growth": "bonds"}, BOND_BASED,
         {"Cracks/criterion": "bond strain",
          "Cracks/critical bond strain": "0.01"}),
+    row("softening that starts at the critical stretch", [
+        "'Cracks / softening stretch'", "found 0.02",
+        "less than the critical stretch, 0.02"],
+        {"Cracks/growth": "bonds", "Cracks/criterion": "critical stretch",
+         "Cracks/critical stretch": "0.02",
+         "Cracks/softening stretch": "0.02"}),
+    row("softening without a stretch", [
+        "'Cracks / softening stretch'", "The criterion does not ask for it"],
+        BONDS, {"Cracks/softening stretch": "0.015"}),
     row("protected boundary that is not there", [
         "'Cracks / protected boundaries'", "'rigth'", "did you mean 'right'"],
         BONDS, {"Cracks/protected boundaries": "left, rigth"}),

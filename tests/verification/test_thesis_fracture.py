@@ -109,6 +109,29 @@ def centre_crack(study):
             torn(study, solution, -7.5, 12.5, ratio)
 
 
+def softening(study):
+    """The teeth dissipate sum (f_l - f_l+1) (s_l / s_cr)^2 of the energy that
+    a bond bears at s_cr: .77 for s_min / s_cr = .75, so Griffith's load is .88
+    of that of bonds that break at once."""
+    if not study.part("centre crack with softening, horizon of 2 mm"):
+        return
+    loads = []
+    for words in ({}, {"Cracks/softening stretch": "0.0015"}):
+        solution = study.solve(
+            "centre_crack_fracture.prm",
+            dict(words, **{"Peridynamics/horizon ratio": "2",
+                           "Cracks/maximum advances": "60"}))
+        finite(study, solution)
+        study.below("energy balance", solution["energy_balance"], 1e-8)
+        loads.append(growth_load(solution.table("broken_bonds"), -7.5, 2.))
+    griffith = math.sqrt(12. * 192e9 * 2e-3 * .002**2 / (5. * math.pi) *
+                         MODULUS) / 16.557e6
+    study.between("growth load over Griffith at s_cr", loads[1] / griffith,
+                  .75, 1.)
+    study.above("load of bonds that break at once over it",
+                loads[0] / loads[1], 1.)
+
+
 def tada(a):
     """K_I over sigma sqrt(pi) of an edge crack in bending, depth 1."""
     return math.sqrt(a) * (1.122 - 1.4 * a + 7.33 * a**2 - 13.08 * a**3 +
@@ -168,6 +191,7 @@ def main():
          (("nx = 30, nt = 20, ns = 15, w = 3.75, r = 10, hy = 75, ne = 8", 1.),
           ), 10.)
     centre_crack(study)
+    softening(study)
     cantilever(study)
     study.finish()
 

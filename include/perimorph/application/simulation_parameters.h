@@ -46,6 +46,7 @@ namespace Perimorph::Application
       advance_length = "1 horizons", growth_control = "load steps",
       criterion            = "automatic";
     double fracture_energy = 0., energy_calibration = 0., critical_stretch = 0.,
+           softening_stretch = 0., softening_steepness = 3.,
            critical_bond_strain = 0., critical_equivalent_strain = 0.,
            critical_volumetric_strain = 0., tensile_strength = 0.,
            cohesion = 0., friction_angle = 0.;

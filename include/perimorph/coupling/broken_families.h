@@ -13,7 +13,8 @@ namespace Perimorph::Coupling
   ///   g_j += w_j C K^-1 xi_j,  C = I - sum_k g_k (x) xi_k,
   /// and are stabilised by the shear modulus with kappa from K
   /// (numerics-damage.md, section 5). Families whose K is singular (condition
-  /// above 1e8) lose their weight and their bonds; they never fail.
+  /// above 1e8) lose their weight and their bonds; they never fail. Softened
+  /// bonds keep a share of g and w and are corrected in the same way.
   ///
   /// Broken bonds are free surfaces only as far as families no longer see
   /// across: unlike at cracks the patch test is not exact there.

@@ -68,14 +68,17 @@ namespace Perimorph::Damage
     double fracture_energy = 0.; ///< G_c
     /// kappa by which G_c is divided for the energy of a bond at break; 0:
     /// lattice_trapping() for the energy, 1 for the stretch.
-    double calibration       = 0.;
-    double stretch           = 0.; ///< s_c; 0: from G_c
-    double bond_strain       = 0.;
-    double equivalent_strain = 0.;
-    double volumetric_strain = 0.;
-    double tensile_strength  = 0.; ///< f_t [stress]
-    double cohesion          = 0.; ///< C [stress]; 0: no failure by shear
-    double friction_angle    = 0.; ///< phi [degrees], less than 90
+    double calibration = 0.;
+    double stretch     = 0.; ///< s_c; 0: from G_c
+    /// s_min at which bonds soften by the tanh law; 0: they do not.
+    double softening_stretch   = 0.;
+    double softening_steepness = 3.; ///< beta
+    double bond_strain         = 0.;
+    double equivalent_strain   = 0.;
+    double volumetric_strain   = 0.;
+    double tensile_strength    = 0.; ///< f_t [stress]
+    double cohesion            = 0.; ///< C [stress]; 0: no failure by shear
+    double friction_angle      = 0.; ///< phi [degrees], less than 90
   };
 
   template <int dim>

@@ -15,6 +15,14 @@ namespace Perimorph::Damage
     /// @param n_teeth  N; 1: the bond breaks at s_c
     explicit SawTooth(unsigned int n_teeth);
 
+    /// Teeth around the softening
+    ///   T(s) = (1 - tanh(beta (2 s - s_min - s_cr) / (s_cr - s_min))) / 2
+    /// between s_min and s_cr: tooth l is lost where T is the mean of the
+    /// shares before and after. Source: Hashim (2021), Eq. (6.1).
+    /// @param start      s_min / s_cr, less than 1
+    /// @param steepness  beta
+    SawTooth(unsigned int n_teeth, double start, double steepness);
+
     /// s_l / s_c at which a bond that has lost l teeth loses the next.
     double
     stretch(unsigned int n_lost) const

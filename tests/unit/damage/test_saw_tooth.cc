@@ -6,6 +6,26 @@
 
 namespace Perimorph::Damage
 {
+  // The law of Hashim (2021), Eq. (6.1), at the mean share of each tooth.
+  TEST(SawTooth, follows_the_tanh_law)
+  {
+    const double   start = 0.75, beta = 3.;
+    const SawTooth teeth(6, start, beta);
+    for (unsigned int l = 0; l < 6; ++l)
+      {
+        const double s = teeth.stretch(l);
+        const double T =
+          0.5 * (1. - std::tanh(beta * (start + 1. - 2. * s) / (start - 1.)));
+        EXPECT_NEAR(T, 1. - (l + 0.5) / 6., 1e-14);
+        EXPECT_GT(s, start);
+        EXPECT_LT(s, 1.);
+      }
+    // Flat and steep laws stay between s_min and s_cr.
+    EXPECT_EQ(SawTooth(6, 0.75, 0.1).stretch(0), 0.75);
+    EXPECT_EQ(SawTooth(6, 0.75, 0.1).stretch(5), 1.);
+    EXPECT_NEAR(SawTooth(6, 0.75, 1e6).stretch(5), 0.875, 1e-5);
+  }
+
   namespace
   {
     constexpr double G_c = 0.37;
