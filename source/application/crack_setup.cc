@@ -3,6 +3,7 @@
 #include <perimorph/bonds/crack_points.h>
 #include <perimorph/mesh/feature_distance.h>
 
+#include <algorithm>
 #include <set>
 #include <sstream>
 
@@ -20,9 +21,41 @@ namespace Perimorph::Application
       return point;
     }
 
-    /// Moves an end on the surface outward along the crack.
+    /// How a facet that starts on the surface goes on.
+    enum class Way
+    {
+      outside,
+      along_surface,
+      into_body
+    };
+
+    Way
+    find_way(const Mesh::NodalMesh<2>   &mesh,
+             const Bonds::CrackFacet<2> &facet,
+             const double                tolerance)
+    {
+      const auto points =
+        Bonds::crack_points(mesh, Bonds::CrackSet<2>({facet}));
+      for (const auto &point : points)
+        if (std::none_of(mesh.boundary_faces.begin(),
+                         mesh.boundary_faces.end(),
+                         [&](const auto &face) {
+                           return point.position.distance(
+                                    Mesh::closest_on_segment(
+                                      point.position,
+                                      mesh.nodes[face.nodes[0]],
+                                      mesh.nodes[face.nodes[1]])) < tolerance;
+                         }))
+          return Way::into_body;
+      return points.empty() ? Way::outside : Way::along_surface;
+    }
+
+    /// Moves an end on the surface outward along the crack: a little, or, where
+    /// bonds pass outside of the body around a corner, as far as they reach.
     void
     open_surface(const Mesh::NodalMesh<2> &mesh,
+                 const double              reach,
+                 const std::string        &name,
                  dealii::Point<2>         &end,
                  const dealii::Point<2>   &before)
     {
@@ -33,8 +66,33 @@ namespace Perimorph::Application
           const double h = a.distance(b);
           if (end.distance(Mesh::closest_on_segment(end, a, b)) < 1e-3 * h)
             {
-              const auto along = end - before;
-              end += 0.1 * h * along / along.norm();
+              const auto direction = (end - before) / (end - before).norm();
+              const auto near      = end + 0.1 * h * direction;
+              const auto far       = end + reach * h * direction;
+              const bool is_corner = std::any_of(
+                mesh.nodes.begin(),
+                mesh.nodes.end(),
+                [&](const auto &node) {
+                  const auto to = node - end;
+                  return to.norm() < reach * h && to * direction > 1e-3 * h;
+                });
+              const Way way =
+                is_corner ? find_way(mesh, {{{near, far}}, 0, 0}, 1e-3 * h)
+                          : Way::into_body;
+              if (way == Way::along_surface)
+                {
+                  std::ostringstream found;
+                  found << "'" << name << "' that goes on at (" << end
+                        << ") along a side of the body";
+                  throw Base::InputError(Base::InputMessage{
+                    "parameter 'Cracks / pre-cracks'",
+                    found.str(),
+                    "cracks that open the surface",
+                    "Let it begin outside of the body, beside that side: it "
+                    "is not clear to which face of the crack the side "
+                    "belongs."});
+                }
+              end = way == Way::outside ? far : near;
               return;
             }
         }
@@ -44,7 +102,8 @@ namespace Perimorph::Application
   template <int dim>
   Bonds::CrackSet<dim>
   make_cracks(const Mesh::NodalMesh<dim>              &mesh,
-              const std::vector<Parameters::Polyline> &lines)
+              const std::vector<Parameters::Polyline> &lines,
+              const double                             horizon_ratio)
   {
     std::vector<Bonds::CrackFacet<dim>> facets;
     for (unsigned int crack = 0; crack < lines.size(); ++crack)
@@ -59,8 +118,16 @@ namespace Perimorph::Application
             if (points.front() != points.back())
               {
                 const auto first = points[0];
-                open_surface(mesh, points[0], points[1]);
+                // Horizons vary from node to node.
+                const double reach = 1.5 * horizon_ratio;
                 open_surface(mesh,
+                             reach,
+                             lines[crack].name,
+                             points[0],
+                             points[1]);
+                open_surface(mesh,
+                             reach,
+                             lines[crack].name,
                              points[n - 1],
                              n == 2 ? first : points[n - 2]);
               }
@@ -241,7 +308,8 @@ namespace Perimorph::Application
 #define PERIMORPH_INSTANTIATE(dim)                                           \
   template Bonds::CrackSet<dim> make_cracks<dim>(                            \
     const Mesh::NodalMesh<dim> &,                                            \
-    const std::vector<Parameters::Polyline> &);                              \
+    const std::vector<Parameters::Polyline> &,                               \
+    double);                                                                 \
   template std::vector<Parameters::Feature> crack_features<dim>(             \
     const Bonds::CrackSet<dim> &);                                           \
   template std::vector<unsigned int> parts_of_body<dim>(                     \

@@ -108,7 +108,9 @@ namespace Perimorph::Application
   {
     if (parameters.pre_cracks.empty())
       return;
-    cracks = make_cracks(mesh->nodal(), parameters.pre_cracks);
+    cracks = make_cracks(mesh->nodal(),
+                         parameters.pre_cracks,
+                         parameters.region.horizon_ratio);
     for (const auto &feature : crack_features(cracks))
       parameters.region.features.push_back(feature);
   }

@@ -5,18 +5,43 @@
 
 namespace Perimorph::Fracture
 {
+  namespace
+  {
+    /// The place of the crack at a distance behind its tip.
+    template <int dim>
+    dealii::Point<dim>
+    place_behind(const TipFrame<dim>                   &tip,
+                 const std::vector<dealii::Point<dim>> &path,
+                 const double                           distance)
+    {
+      for (std::size_t k = 1; k < path.size(); ++k)
+        {
+          const double before = path[k - 1].distance(tip.origin);
+          const double after  = path[k].distance(tip.origin);
+          // Pieces are nearly straight on.
+          if (after >= distance)
+            return path[k - 1] + (distance - before) / (after - before) *
+                                   (path[k] - path[k - 1]);
+        }
+      return tip.origin - distance * tip.axes[0];
+    }
+  } // namespace
+
   template <int dim>
   OpeningFactors
   factors_from_opening(const DisplacementFit<dim>                &fit,
                        const std::vector<dealii::Tensor<1, dim>> &displacement,
                        const TipFrame<dim>                       &tip,
                        const double                               length,
-                       const NearTipConstants                    &constants)
+                       const NearTipConstants                    &constants,
+                       const std::vector<dealii::Point<dim>>     &path)
   {
     constexpr unsigned int n_places = 16;
     constexpr double       nearest = 0.15, farthest = 0.6;
-    const double           pi    = std::acos(-1.);
-    const double           scale = constants.plane_modulus() / 8.;
+    // Of the faces from the crack, in spacings.
+    constexpr double offset = 1e-6;
+    const double     pi     = std::acos(-1.);
+    const double     scale  = constants.plane_modulus() / 8.;
 
     // sums of a straight line through K(r), for both modes
     double                n = 0., sum_r = 0., sum_rr = 0.;
@@ -25,13 +50,13 @@ namespace Perimorph::Fracture
       {
         const double r =
           length * (nearest + (farthest - nearest) * (k + 0.5) / n_places);
-        const auto   middle  = tip.origin - r * tip.axes[0];
+        const auto   middle  = place_behind(tip, path, r);
         const double spacing = fit.length_at(middle);
-        const auto   upper   = fit.fit(middle + 1e-6 * spacing * tip.axes[1],
+        const auto   upper   = fit.fit(middle + offset * spacing * tip.axes[1],
                                    spacing,
                                    DisplacementFit<dim>::any_material,
                                    displacement);
-        const auto   lower   = fit.fit(middle - 1e-6 * spacing * tip.axes[1],
+        const auto   lower   = fit.fit(middle - offset * spacing * tip.axes[1],
                                    spacing,
                                    DisplacementFit<dim>::any_material,
                                    displacement);
@@ -68,7 +93,8 @@ namespace Perimorph::Fracture
     const std::vector<dealii::Tensor<1, dim>> &,     \
     const TipFrame<dim> &,                           \
     double,                                          \
-    const NearTipConstants &);
+    const NearTipConstants &,                        \
+    const std::vector<dealii::Point<dim>> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

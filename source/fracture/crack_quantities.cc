@@ -122,7 +122,8 @@ namespace Perimorph::Fracture
                                                 cracked.body.displacement,
                                                 tip.frame,
                                                 length,
-                                                around.constants);
+                                                around.constants,
+                                                tip.path);
         all.push_back(std::move(result));
       }
     return all;

@@ -137,6 +137,13 @@ def main():
                                          entry["value"] + 1.,
                                          1e-9 if dim == 2 else 1e-5)
         failures.end(runs[0])
+    # To which face the side of the panel belongs is not clear.
+    failures.begin("from a corner along a side")
+    outcome = runner.run_case("l_shaped_panel.prm",
+                              ["Cracks/pre-cracks=c: 250 250 to 230 250"])
+    failures.check(outcome.code == 2 and "along a side of the body" in
+                   outcome.text, "exit %d" % outcome.code)
+    failures.end(outcome)
     finish(failures)
 
 

@@ -10,12 +10,15 @@ namespace Perimorph::Application
   /// Facets of pre-cracks: the pieces of lines in 2D, fans of triangles in 3D.
   /// Open ends of lines that lie on the surface of the body (within a
   /// thousandth of the spacing) go on for a tenth of the spacing, so that they
-  /// open it.
-  /// @throws Base::InputError  a crack that is nowhere in the body
+  /// open it; at re-entrant corners and holes, where bonds pass outside of the
+  /// body, for one and a half horizons.
+  /// @throws Base::InputError  a crack that is nowhere in the body, or that
+  ///         starts at a corner as the continuation of a side
   template <int dim>
   Bonds::CrackSet<dim>
   make_cracks(const Mesh::NodalMesh<dim>              &mesh,
-              const std::vector<Parameters::Polyline> &lines);
+              const std::vector<Parameters::Polyline> &lines,
+              double                                   horizon_ratio);
 
   /// What peridynamics is placed around for the cracks.
   template <int dim>

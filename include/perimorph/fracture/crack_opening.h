@@ -26,11 +26,14 @@ namespace Perimorph::Fracture
   /// @param fit           one that does not see past the crack (visible_fit)
   /// @param displacement  one vector per node of the mesh
   /// @param length        crack length, or the half of it with two tips
+  /// @param path          corners of the crack from the tip backwards; none: a
+  ///                      straight crack
   template <int dim>
   OpeningFactors
   factors_from_opening(const DisplacementFit<dim>                &fit,
                        const std::vector<dealii::Tensor<1, dim>> &displacement,
                        const TipFrame<dim>                       &tip,
                        double                                     length,
-                       const NearTipConstants                    &constants);
+                       const NearTipConstants                    &constants,
+                       const std::vector<dealii::Point<dim>>     &path = {});
 } // namespace Perimorph::Fracture
