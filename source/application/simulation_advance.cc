@@ -97,7 +97,6 @@ namespace Perimorph::Application
           method.region,
           method.problem->correspondence_families());
         std::vector<Fan> fans;
-        auto             wider = parameters.region;
         for (unsigned int t = 0; t < tips.size(); ++t)
           {
             const auto &tip = tips[t];

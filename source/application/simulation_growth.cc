@@ -354,7 +354,7 @@ namespace Perimorph::Application
             return true;
           }
         if (!counts_work)
-          switched_energy = 0.;
+          switched_energy = advance->switched = 0.;
         counts_work = true;
         find_load(*advance, method, step, on_newton);
         ++step.number;
