@@ -52,21 +52,29 @@ namespace Perimorph::Application
                     sizeof(T) * values.size());
     }
 
+    /// The way back from DistributedMesh::node_of_file_point().
+    template <int dim>
+    std::vector<unsigned int>
+    file_point_of_node(const Mesh::DistributedMesh<dim> &mesh)
+    {
+      const auto               &node_of_point = mesh.node_of_file_point();
+      std::vector<unsigned int> point_of_node(node_of_point.size());
+      for (unsigned int point = 0; point < node_of_point.size(); ++point)
+        point_of_node[node_of_point[point]] = point;
+      return point_of_node;
+    }
+
     /// CRC-32 of the mesh in the numbering of its file.
     template <int dim>
     unsigned long
     mesh_sum(const Mesh::DistributedMesh<dim> &mesh)
     {
-      const auto               &nodal         = mesh.nodal();
-      const auto               &node_of_point = mesh.node_of_file_point();
-      std::vector<unsigned int> point_of_node(nodal.n_nodes());
-      std::vector<double>       places;
-      for (unsigned int point = 0; point < node_of_point.size(); ++point)
-        {
-          point_of_node[node_of_point[point]] = point;
-          for (int d = 0; d < dim; ++d)
-            places.push_back(nodal.nodes[node_of_point[point]][d]);
-        }
+      const auto         &nodal         = mesh.nodal();
+      const auto          point_of_node = file_point_of_node(mesh);
+      std::vector<double> places;
+      for (const unsigned int node : mesh.node_of_file_point())
+        for (int d = 0; d < dim; ++d)
+          places.push_back(nodal.nodes[node][d]);
       std::vector<unsigned int> cells;
       for (const auto &cell : nodal.cells)
         for (const unsigned int node : cell)
@@ -309,11 +317,8 @@ namespace Perimorph::Application
                      const Bonds::BrokenBonds         &broken,
                      Output::Checkpoint               &checkpoint)
   {
-    const auto               &node_of_point = mesh.node_of_file_point();
-    std::vector<unsigned int> point_of_node(node_of_point.size());
-    for (unsigned int point = 0; point < node_of_point.size(); ++point)
-      point_of_node[node_of_point[point]] = point;
-    auto &numbers = checkpoint.arrays["broken bonds"];
+    const auto point_of_node = file_point_of_node(mesh);
+    auto      &numbers       = checkpoint.arrays["broken bonds"];
     numbers.clear();
     for (const auto &bond : broken.list())
       {

@@ -25,26 +25,23 @@ namespace Perimorph::Application
     std::vector<Facet<dim>>
     facets_of_group(const Mesh::GmshMesh<dim> &mesh, const std::string &name)
     {
+      // Corners of a quadrilateral are lexicographic.
+      using Corners = std::vector<std::array<unsigned int, 3>>;
+      const Corners corners =
+        dim == 2 ? Corners{{{0, 1, 0}}} : Corners{{{0, 1, 3}}, {{0, 3, 2}}};
       std::vector<Facet<dim>> facets;
       if (const auto drawn = mesh.drawn.find(name); drawn != mesh.drawn.end())
         facets = drawn->second;
       if (const auto faces = mesh.surfaces.find(name);
           faces != mesh.surfaces.end())
         for (const auto &face : faces->second)
-          {
-            // Corners of a quadrilateral are lexicographic.
-            const std::vector<std::array<unsigned int, 3>> corners =
-              dim == 2 ? std::vector<std::array<unsigned int, 3>>{{{0, 1, 0}}}
-                       : std::vector<std::array<unsigned int, 3>>{{{0, 1, 3}},
-                                                                  {{0, 3, 2}}};
-            for (const auto &some : corners)
-              {
-                Facet<dim> facet;
-                for (int v = 0; v < dim; ++v)
-                  facet[v] = mesh.points[face[some[v]]];
-                facets.push_back(facet);
-              }
-          }
+          for (const auto &some : corners)
+            {
+              Facet<dim> facet;
+              for (int v = 0; v < dim; ++v)
+                facet[v] = mesh.points[face[some[v]]];
+              facets.push_back(facet);
+            }
       return facets;
     }
 

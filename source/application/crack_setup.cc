@@ -1,5 +1,6 @@
 #include <perimorph/application/crack_setup.h>
 #include <perimorph/base/exceptions.h>
+#include <perimorph/base/label_sizes.h>
 #include <perimorph/bonds/crack_points.h>
 #include <perimorph/mesh/feature_distance.h>
 
@@ -209,6 +210,21 @@ namespace Perimorph::Application
         ++n_parts;
       }
     return parts;
+  }
+
+  unsigned int
+  count_large_parts(const std::vector<unsigned int> &parts,
+                    const std::vector<bool>         &marked)
+  {
+    constexpr double  smallest = 0.05;
+    const auto        sizes    = Base::label_sizes(parts);
+    std::vector<bool> counts(sizes.size());
+    for (std::size_t k = 0; k < sizes.size(); ++k)
+      counts[k] = sizes[k] > smallest * parts.size();
+    for (std::size_t n = 0; n < marked.size(); ++n)
+      if (marked[n])
+        counts[parts[n]] = true;
+    return std::count(counts.begin(), counts.end(), true);
   }
 
   template <int dim>

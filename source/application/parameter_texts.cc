@@ -8,25 +8,9 @@ namespace Perimorph::Application
   using dealii::Patterns::Bool;
   using dealii::Patterns::Double;
   using dealii::Patterns::Integer;
-  using dealii::Patterns::Selection;
+  using Parameters::automatic_or;
+  using Parameters::choice;
   using Parameters::PositiveDouble;
-  using Parameters::selection_text;
-
-  namespace
-  {
-    Selection
-    choice(const std::vector<std::string> &names)
-    {
-      return Selection(selection_text(names));
-    }
-
-    std::vector<std::string>
-    automatic_or(std::vector<std::string> names)
-    {
-      names.insert(names.begin(), "automatic");
-      return names;
-    }
-  } // namespace
 
   void
   ParameterTexts::declare(dealii::ParameterHandler &prm)
@@ -157,148 +141,7 @@ namespace Perimorph::Application
       choice({"automatic", "bending", "shear modulus"}));
     prm.leave_subsection();
 
-    prm.enter_subsection("Cracks");
-    prm.add_parameter("pre-cracks",
-                      pre_cracks,
-                      "Cracks that are there from the start, not meshed: edge: "
-                      "0 0 to 0.5 0; bent: 1 0 to 1 0.2 to 1.1 0.3. In 3D the "
-                      "corners of flat convex polygons. 'edge: group NAME': "
-                      "the lines or triangles of a physical group of the mesh "
-                      "file. An end at the surface opens it. Peridynamics is "
-                      "placed around them.",
-                      Anything());
-    prm.add_parameter(
-      "treatment",
-      crack_treatment,
-      "consistent: cracks are free surfaces to round-off. shape tensor: bonds "
-      "that cross are left out, nothing more; for comparison.",
-      choice({"consistent", "shape tensor"}));
-    prm.add_parameter(
-      "growth",
-      crack_growth,
-      "none; segments: cracks grow by straight advances where the energy that "
-      "an advance releases is the fracture energy (2D, linear or not). bonds: "
-      "bonds of the core break one by one where 'criterion' says; cracks "
-      "start, "
-      "branch and meet freely, but follow the rows of regular meshes (linear "
-      "problems).",
-      choice({"none", "segments", "bonds"}));
-    prm.add_parameter(
-      "criterion",
-      criterion,
-      "Of growth = bonds: where a bond breaks. critical energy: its energy "
-      "over the volumes of its ends is that of a crack of 'fracture energy'. "
-      "critical stretch: its stretch is, or is 'critical stretch'; with the "
-      "correspondence model load and path depend more on the mesh. bond "
-      "strain, equivalent strain, volumetric strain, maximum principal stress: "
-      "by strain or stress of the particles at its ends; find where damage "
-      "starts, but cracks become wide bands. automatic: critical energy; "
-      "model = bond based: critical stretch.",
-      choice(automatic_or(Damage::criterion_names())));
-    prm.add_parameter(
-      "energy calibration",
-      energy_calibration,
-      "Of growth = bonds: kappa, by which the energy of a bond at break is "
-      "divided so that cracks grow at the fracture energy: measured with a "
-      "known "
-      "crack and kappa = 1 as its energy release rate at growth over G_c. 0: "
-      "measured values for horizon ratios of 2 to 3 in plane stress (3.04 to "
-      "2; "
-      "coupling = energy blending: 1.75 to 1.26); critical stretch: 1.",
-      Double(0.));
-    prm.add_parameter(
-      "softening teeth",
-      softening_teeth,
-      "Of growth = bonds: bonds soften in so many steps. Model = bond based: "
-      "from their largest force to none at four times its stretch, with the "
-      "energy of a bond that breaks at once (1 step); cracks grow nearer to "
-      "the fracture energy. Both models with 'softening stretch': by that law.",
-      Integer(1));
-    prm.add_parameter("fracture energy",
-                      fracture_energy,
-                      "G_c [stress * length]; energy per area of crack.",
-                      Double(0.));
-    prm.add_parameter("critical stretch",
-                      critical_stretch,
-                      "s_cr [-] of criterion = critical stretch, instead of a "
-                      "'fracture energy'; 0: from that.",
-                      Double(0.));
-    prm.add_parameter(
-      "softening stretch",
-      softening_stretch,
-      "s_min [-], less than 'critical stretch': bonds soften between both as "
-      "(1 - tanh(beta (2 s - s_min - s_cr) / (s_cr - s_min))) / 2, in "
-      "'softening teeth' steps. 0: they do not.",
-      Double(0.));
-    prm.add_parameter("softening steepness",
-                      softening_steepness,
-                      "beta [-] of 'softening stretch'.",
-                      PositiveDouble());
-    prm.add_parameter("critical bond strain",
-                      critical_bond_strain,
-                      "Of criterion = bond strain: |eta_d| / |xi| [-], the "
-                      "deviatoric strain of the bond, under tension.",
-                      Double(0.));
-    prm.add_parameter("critical equivalent strain",
-                      critical_equivalent_strain,
-                      "Of criterion = equivalent strain: sqrt(2/3 e : e) [-] "
-                      "of the deviator e.",
-                      Double(0.));
-    prm.add_parameter("critical volumetric strain",
-                      critical_volumetric_strain,
-                      "Of criterion = volumetric strain: trace of the strain "
-                      "[-].",
-                      Double(0.));
-    prm.add_parameter("tensile strength",
-                      tensile_strength,
-                      "Of criterion = maximum principal stress: f_t [stress].",
-                      Double(0.));
-    prm.add_parameter(
-      "cohesion",
-      cohesion,
-      "Of criterion = maximum principal stress: C [stress]; bonds also break "
-      "by shear where (s1 - s3) / 2 = C cos phi - (s1 + s3) / 2 sin phi "
-      "(Mohr-Coulomb, tension positive). 0: they do not.",
-      Double(0.));
-    prm.add_parameter("friction angle",
-                      friction_angle,
-                      "phi [degrees] of Mohr-Coulomb, with 'cohesion'.",
-                      Double(0., 89.));
-    prm.add_parameter("protected boundaries",
-                      protected_boundaries,
-                      "Of growth = bonds: bonds with an end within one horizon "
-                      "of these boundaries never break: top, bottom.",
-                      Anything());
-    prm.add_parameter("protected materials",
-                      protected_materials,
-                      "Of growth = bonds: bonds with an end in these volumes "
-                      "never break: inclusion, ...",
-                      Anything());
-    prm.add_parameter(
-      "protected regions",
-      protected_regions,
-      "Of growth = bonds: bonds with an end there never break, separated by "
-      "';': box x0 y0 x1 y1 | ball x y r | within one horizon of point x y | "
-      "segment x0 y0 x1 y1 | plane px py nx ny (with z in 3D).",
-      Anything());
-    prm.add_parameter("advance length",
-                      advance_length,
-                      "Of one advance: a length, or in horizons: '1 horizons'.",
-                      Anything());
-    prm.add_parameter(
-      "growth control",
-      growth_control,
-      "load steps: at the loads of each step cracks grow while they can. "
-      "events: at the t at which each advance is just possible, past the end "
-      "time or below it; snap-back included. Linear problems scale the loads, "
-      "which must be multiples of t; others follow them up and down.",
-      choice({"load steps", "events"}));
-    prm.add_parameter("maximum advances",
-                      maximum_advances,
-                      "The run stops after so many; with growth = bonds, after "
-                      "so many events.",
-                      Integer(1));
-    prm.leave_subsection();
+    declare_cracks(prm);
 
     prm.enter_subsection("Boundary conditions");
     prm.add_parameter("symmetry",

@@ -44,6 +44,85 @@ namespace Perimorph::Application
         length += point.measure;
       return length;
     }
+
+    /// A tip and how it may advance.
+    struct Plan
+    {
+      Fracture::CrackTip    tip;
+      double                horizon, spacing, length;
+      std::vector<double>   angles;    ///< of probes
+      std::optional<double> direction; ///< known without probes
+      std::optional<double> J;
+    };
+
+    /// @param factors  of the tips
+    std::vector<Plan>
+    make_plans(const Mesh::NodalMesh<2>                   &mesh,
+               const Bonds::CrackSet<2>                   &cracks,
+               const Mesh::RegionMap                      &region,
+               const SimulationParameters<2>              &parameters,
+               const std::vector<Fracture::TipQuantities> &factors)
+    {
+      const auto       &growth = parameters.growth;
+      std::vector<Plan> plans;
+      for (const auto &known : factors)
+        {
+          Plan plan;
+          plan.tip     = known.tip;
+          plan.horizon = horizon_at(mesh, region, plan.tip.frame.origin);
+          plan.spacing = plan.horizon / parameters.region.horizon_ratio;
+          plan.length  = growth.advance.in_horizons
+                           ? growth.advance.value * plan.horizon
+                           : growth.advance.value;
+          plan.angles =
+            Fracture::probe_angles(cracks.facets()[plan.tip.facet].step == 0);
+          if (!known.values.empty())
+            plan.J = known.values.front().J;
+          if (!known.values.empty() && !parameters.finite_strain())
+            plan.direction = Fracture::hoop_angle(known.values.front().K_I,
+                                                  known.values.front().K_II);
+          // Probes that would reach through a ligament say nothing.
+          else if (Fracture::distance_ahead(mesh, cracks, plan.tip, 0.) <
+                   2. * plan.horizon + 2.2 * plan.spacing)
+            plan.direction = 0.;
+          plans.push_back(plan);
+        }
+      return plans;
+    }
+
+    /// The region with what the next advances in known directions cut, or the
+    /// probes of one.
+    Mesh::RegionParameters
+    with_room(const Mesh::RegionParameters &region,
+              const std::vector<Plan>      &plans,
+              const double                  n_advances)
+    {
+      std::vector<Bonds::CrackFacet<2>> outline;
+      for (const auto &plan : plans)
+        {
+          // An advance may be longer where it meets a surface.
+          const double more = 2.2 * plan.spacing;
+          if (plan.direction)
+            outline.push_back(
+              Fracture::advance_facet(plan.tip,
+                                      *plan.direction,
+                                      n_advances * plan.length + more,
+                                      0));
+          else
+            for (const double angle :
+                 {plan.angles.front(), 0., plan.angles.back()})
+              outline.push_back(Fracture::advance_facet(
+                plan.tip,
+                angle,
+                std::max(2. * plan.horizon, plan.length + more),
+                0));
+        }
+      auto wider          = region;
+      wider.may_fill_body = true;
+      for (const auto &feature : crack_features(Bonds::CrackSet<2>(outline)))
+        wider.features.push_back(feature);
+      return wider;
+    }
   } // namespace
 
   template <int dim>
@@ -75,127 +154,72 @@ namespace Perimorph::Application
 
   template <int dim>
   std::optional<typename Simulation<dim>::Advance>
-  Simulation<dim>::best_advance([[maybe_unused]] Method         &method,
-                                [[maybe_unused]] const OnNewton &on_newton)
+  Simulation<dim>::best_advance([[maybe_unused]] Method &method)
   {
     if constexpr (dim == 2)
       {
         const auto &nodal = mesh->nodal();
-        const auto  tips  = Fracture::find_tips(nodal, cracks);
-        if (tips.empty())
+        const auto  plans =
+          make_plans(nodal,
+                     cracks,
+                     method.region,
+                     parameters,
+                     post_processing->tip_quantities(
+                       gather(method),
+                       method.region,
+                       method.problem->correspondence_families()));
+        if (plans.empty())
           return std::nullopt;
 
-        // Probes: two horizons long, in a fan ahead of each tip.
-        struct Fan
-        {
-          double                horizon, spacing, length;
-          std::vector<double>   angles;
-          std::optional<double> direction; ///< known without probes
-        };
-        const auto factors = post_processing->tip_quantities(
-          gather(method),
-          method.region,
-          method.problem->correspondence_families());
-        std::vector<Fan> fans;
-        for (unsigned int t = 0; t < tips.size(); ++t)
-          {
-            const auto &tip = tips[t];
-            Fan         fan;
-            fan.horizon = horizon_at(nodal, method.region, tip.frame.origin);
-            fan.spacing = fan.horizon / parameters.region.horizon_ratio;
-            fan.length  = parameters.growth.advance.in_horizons
-                            ? parameters.growth.advance.value * fan.horizon
-                            : parameters.growth.advance.value;
-            fan.angles =
-              Fracture::probe_angles(cracks.facets()[tip.facet].step == 0);
-            if (!factors[t].values.empty() && !parameters.finite_strain())
-              fan.direction =
-                Fracture::hoop_angle(factors[t].values.front().K_I,
-                                     factors[t].values.front().K_II);
-            // Probes that would reach through a ligament say nothing.
-            else if (Fracture::distance_ahead(nodal, cracks, tip, 0.) <
-                     2. * fan.horizon + 2.2 * fan.spacing)
-              fan.direction = 0.;
-            fans.push_back(fan);
-          }
         // The core has room before bonds there are cut, for some advances at
         // once; it does not shrink.
-        const auto with_room = [&](const double n_lengths) {
-          std::vector<Bonds::CrackFacet<2>> outline;
-          for (unsigned int t = 0; t < tips.size(); ++t)
-            {
-              const auto &fan = fans[t];
-              // An advance may be longer where it meets a surface.
-              const double more = 2.2 * fan.spacing;
-              if (fan.direction)
-                outline.push_back(
-                  Fracture::advance_facet(tips[t],
-                                          *fan.direction,
-                                          n_lengths * fan.length + more,
-                                          0));
-              else
-                for (const double angle :
-                     {fan.angles.front(), 0., fan.angles.back()})
-                  outline.push_back(Fracture::advance_facet(
-                    tips[t],
-                    angle,
-                    std::max(2. * fan.horizon, fan.length + more),
-                    0));
-            }
-          auto wider          = parameters.region;
-          wider.may_fill_body = true;
-          for (const auto &feature :
-               crack_features(Bonds::CrackSet<2>(outline)))
-            wider.features.push_back(feature);
-          return wider;
-        };
-        const auto needed = make_region_map(*mesh, with_room(1.)).alpha;
-        bool       fits   = true;
+        const auto needed =
+          make_region_map(*mesh, with_room(parameters.region, plans, 1.)).alpha;
+        bool fits = true;
         for (unsigned int n = 0; n < needed.size(); ++n)
           fits = fits && needed[n] <= method.region.alpha[n];
-        const double switched    = fits ? 0. : grow_core(method, with_room(3.));
+        const double switched =
+          fits ? 0.
+               : grow_core(method, with_room(parameters.region, plans, 3.));
         const double start       = potential_energy(method);
-        const auto   released_by = [&](const auto &after) {
+        const auto   released_by = [&](const std::optional<Method> &after) {
           return after ? start - potential_energy(*after)
                          : std::numeric_limits<double>::infinity();
         };
-        std::optional<Advance> best;
-        for (unsigned int t = 0; t < tips.size(); ++t)
-          {
-            const auto &tip = tips[t];
-            const auto &fan = fans[t];
-            // Without the probes that cut something off.
-            std::vector<double> angles, drops;
-            if (!fan.direction)
-              for (const double angle : fan.angles)
+        const auto by_probes = [&](const Plan &plan) {
+          // Without the probes that cut something off.
+          std::vector<double> angles, drops;
+          for (const double angle : plan.angles)
+            {
+              const double drop = released_by(state_behind(
+                Fracture::advance_facet(plan.tip, angle, 2. * plan.horizon, 0),
+                method));
+              if (std::isfinite(drop))
                 {
-                  const double drop = released_by(state_behind(
-                    Fracture::advance_facet(tip, angle, 2. * fan.horizon, 0),
-                    method));
-                  if (std::isfinite(drop))
-                    {
-                      angles.push_back(angle);
-                      drops.push_back(drop);
-                    }
+                  angles.push_back(angle);
+                  drops.push_back(drop);
                 }
-            const double angle  = fan.direction ? *fan.direction
-                                  : drops.size() < 3
-                                    ? 0.
-                                    : Fracture::best_angle(angles, drops);
+            }
+          return drops.size() < 3 ? 0. : Fracture::best_angle(angles, drops);
+        };
+
+        std::optional<Advance> best;
+        for (const auto &plan : plans)
+          {
+            const double angle =
+              plan.direction ? *plan.direction : by_probes(plan);
             const double length = Fracture::closing_length(nodal,
                                                            cracks,
-                                                           tip,
+                                                           plan.tip,
                                                            angle,
-                                                           fan.length,
-                                                           fan.spacing);
+                                                           plan.length,
+                                                           plan.spacing);
             Advance      advance;
-            advance.tip = tip;
             advance.facet =
-              Fracture::advance_facet(tip, angle, length, n_advances + 1);
+              Fracture::advance_facet(plan.tip, angle, length, n_advances + 1);
             advance.length   = length_inside(nodal, advance.facet);
             advance.switched = switched;
-            if (!factors[t].values.empty())
-              advance.J = factors[t].values.front().J;
+            advance.J        = plan.J;
             auto after       = state_behind(advance.facet, method);
             advance.released = released_by(after);
             if (after)
@@ -272,12 +296,12 @@ namespace Perimorph::Application
       }
   }
 
-#define PERIMORPH_INSTANTIATE(dim)                                         \
-  template std::optional<Simulation<dim>::Method>                          \
-  Simulation<dim>::state_behind(const Bonds::CrackFacet<dim> &,            \
-                                const Method &);                           \
-  template std::optional<Simulation<dim>::Advance>                         \
-                Simulation<dim>::best_advance(Method &, const OnNewton &); \
+#define PERIMORPH_INSTANTIATE(dim)                              \
+  template std::optional<Simulation<dim>::Method>               \
+  Simulation<dim>::state_behind(const Bonds::CrackFacet<dim> &, \
+                                const Method &);                \
+  template std::optional<Simulation<dim>::Advance>              \
+                Simulation<dim>::best_advance(Method &);        \
   template void Simulation<dim>::write_advance(const Advance &, const Step &);
 
   PERIMORPH_INSTANTIATE(2)

@@ -1,3 +1,4 @@
+#include <perimorph/application/crack_setup.h>
 #include <perimorph/application/simulation.h>
 #include <perimorph/base/collective.h>
 #include <perimorph/base/log.h>
@@ -17,9 +18,6 @@ namespace Perimorph::Application
     constexpr double tolerance = 0.02;
 
     constexpr double never = std::numeric_limits<double>::infinity();
-
-    /// A part of the body is more than debris above this share of its nodes.
-    constexpr double large_part = 0.05;
 
     /// Factor by which one event changes the energy of a body of which only a
     /// mechanism is left.
@@ -234,8 +232,7 @@ namespace Perimorph::Application
         if (before == method.region.alpha)
           throw Base::SolveError(
             "bonds would break where elements carry a part, and the core "
-            "cannot "
-            "grow there: use a larger 'Peridynamics / core size'");
+            "cannot grow there: use a larger 'Peridynamics / core size'");
         log << "  the peridynamic core grows: " << method.region.n_core
             << " nodes" << std::endl;
       }
@@ -245,22 +242,10 @@ namespace Perimorph::Application
   unsigned int
   Simulation<dim>::n_parts(const Method &method, const State<dim> &loaded) const
   {
-    const auto                parts = method.problem->parts(method.region);
-    std::vector<unsigned int> size;
-    std::vector<bool>         is_loaded;
-    for (unsigned int n = 0; n < parts.size(); ++n)
-      {
-        size.resize(std::max<std::size_t>(size.size(), parts[n] + 1), 0);
-        is_loaded.resize(size.size(), false);
-        ++size[parts[n]];
-        if (loaded.external_force[n].norm() > 0.)
-          is_loaded[parts[n]] = true;
-      }
-    unsigned int n_large = 0;
-    for (unsigned int k = 0; k < size.size(); ++k)
-      if (is_loaded[k] || size[k] > large_part * parts.size())
-        ++n_large;
-    return n_large;
+    std::vector<bool> is_loaded;
+    for (const auto &force : loaded.external_force)
+      is_loaded.push_back(force.norm() > 0.);
+    return count_large_parts(method.problem->parts(method.region), is_loaded);
   }
 
   template <int dim>

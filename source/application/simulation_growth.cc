@@ -10,9 +10,6 @@ namespace Perimorph::Application
 {
   namespace
   {
-    /// A part of the body is more than debris above this share of its nodes.
-    constexpr double smallest_part = 0.05;
-
     constexpr char loose_piece[] =
       "the next advance cuts off a piece that nothing holds";
   } // namespace
@@ -104,16 +101,7 @@ namespace Perimorph::Application
   unsigned int
   Simulation<dim>::n_large_parts() const
   {
-    const auto                parts = parts_of_body(mesh->nodal(), cracks);
-    std::vector<unsigned int> size;
-    for (const unsigned int part : parts)
-      {
-        size.resize(std::max<std::size_t>(size.size(), part + 1), 0);
-        ++size[part];
-      }
-    return std::count_if(size.begin(), size.end(), [&](const unsigned n) {
-      return n > smallest_part * parts.size();
-    });
+    return count_large_parts(parts_of_body(mesh->nodal(), cracks));
   }
 
   template <int dim>
@@ -126,11 +114,24 @@ namespace Perimorph::Application
   }
 
   template <int dim>
+  void
+  Simulation<dim>::accept(Advance &advance, Method &method, Step &step)
+  {
+    cracks.append({advance.facet});
+    method = std::move(advance.after);
+    ++n_advances;
+    ++step.number;
+    released_energy += advance.released;
+    dissipated_energy += parameters.growth.fracture_energy * advance.length;
+    grown_length += advance.length;
+    write_advance(advance, step);
+  }
+
+  template <int dim>
   bool
-  Simulation<dim>::grow_cracks(Method         &method,
-                               Step           &step,
-                               const OnStep   &on_step,
-                               const OnNewton &on_newton)
+  Simulation<dim>::grow_cracks(Method       &method,
+                               Step         &step,
+                               const OnStep &on_step)
   {
     const double G_c = parameters.growth.fracture_energy;
     if (n_advances == 0)
@@ -142,7 +143,7 @@ namespace Perimorph::Application
             end_growth("separated", "the body is separated");
             return false;
           }
-        auto advance = best_advance(method, on_newton);
+        auto advance = best_advance(method);
         if (!advance || advance->released < G_c * advance->length)
           return true;
         if (!std::isfinite(advance->released))
@@ -150,14 +151,7 @@ namespace Perimorph::Application
             end_growth("separated", loose_piece);
             return false;
           }
-        cracks.append({advance->facet});
-        method = std::move(advance->after);
-        ++n_advances;
-        ++step.number;
-        released_energy += advance->released;
-        dissipated_energy += G_c * advance->length;
-        grown_length += advance->length;
-        write_advance(*advance, step);
+        accept(*advance, method, step);
         on_step(step);
       }
     growth_end = "largest number of advances";
@@ -167,15 +161,14 @@ namespace Perimorph::Application
 
   template <int dim>
   bool
-  Simulation<dim>::grow_at_fixed_loads(Method         &method,
-                                       Step           &step,
-                                       const OnStep   &on_step,
-                                       const OnNewton &on_newton)
+  Simulation<dim>::grow_at_fixed_loads(Method       &method,
+                                       Step         &step,
+                                       const OnStep &on_step)
   {
     if (parameters.growth.bonds)
       return break_overloaded_bonds(method, step, on_step);
     if (parameters.growth.active)
-      return grow_cracks(method, step, on_step, on_newton);
+      return grow_cracks(method, step, on_step);
     return true;
   }
 
@@ -298,9 +291,10 @@ namespace Perimorph::Application
                 method,
                 step,
                 on_newton);
-        auto longer = cracks;
-        longer.append({advance.facet});
-        advance.after = solve_with(longer, method.region, method);
+        auto after = state_behind(advance.facet, method);
+        if (!after)
+          throw Base::SolveError(loose_piece);
+        advance.after = std::move(*after);
         const double released =
           potential_energy(method) - potential_energy(advance.after);
         if (!(released > 0.))
@@ -324,8 +318,7 @@ namespace Perimorph::Application
                                         const OnStep   &on_step,
                                         const OnNewton &on_newton)
   {
-    const double G_c  = parameters.growth.fracture_energy;
-    Step         step = progress.step;
+    Step step = progress.step;
     start_events(method, step, on_newton);
     if (n_advances == 0)
       parts_at_start = n_large_parts();
@@ -336,7 +329,7 @@ namespace Perimorph::Application
             end_growth("separated", "the body is separated");
             return true;
           }
-        auto advance = best_advance(method, on_newton);
+        auto advance = best_advance(method);
         if (!advance)
           {
             end_growth("no tip left", "no tip is left");
@@ -361,14 +354,7 @@ namespace Perimorph::Application
         step.between = true;
         on_step(step);
         step.between = false;
-        cracks.append({advance->facet});
-        method = std::move(advance->after);
-        ++n_advances;
-        ++step.number;
-        released_energy += advance->released;
-        dissipated_energy += G_c * advance->length;
-        grown_length += advance->length;
-        write_advance(*advance, step);
+        accept(*advance, method, step);
         progress.number = n_advances;
         on_step(step);
       }
@@ -377,43 +363,42 @@ namespace Perimorph::Application
     return false;
   }
 
-#define PERIMORPH_INSTANTIATE(dim)                                              \
-  template double Simulation<dim>::potential_energy(const Method &) const;      \
-  template Simulation<dim>::Method Simulation<dim>::solve_with(                 \
-    const Bonds::CrackSet<dim> &,                                               \
-    const Mesh::RegionMap &,                                                    \
-    const Method &);                                                            \
-  template void   Simulation<dim>::rise_to(double,                              \
-                                         Method &,                            \
-                                         Step &,                              \
-                                         const OnNewton &);                   \
-  template void   Simulation<dim>::find_load(Advance &,                         \
-                                           Method &,                          \
-                                           Step &,                            \
-                                           const OnNewton &);                 \
-  template void   Simulation<dim>::continue_from(const Method &, Method &);     \
-  template double Simulation<dim>::grow_core(Method &,                          \
-                                             const Mesh::RegionParameters &);   \
-  template void   Simulation<dim>::scale_to(double,                             \
-                                          Method &,                           \
-                                          Step &,                             \
-                                          const OnNewton &);                  \
-  template unsigned int Simulation<dim>::n_large_parts() const;                 \
-  template void         Simulation<dim>::end_growth(const std::string &,        \
-                                            const std::string &);       \
-  template bool         Simulation<dim>::grow_cracks(Method &,                  \
-                                             Step &,                    \
-                                             const OnStep &,            \
-                                             const OnNewton &);         \
-  template bool         Simulation<dim>::grow_at_fixed_loads(Method &,          \
-                                                     Step &,            \
-                                                     const OnStep &,    \
-                                                     const OnNewton &); \
-  template void         Simulation<dim>::start_events(Method &,                 \
-                                              Step &,                   \
-                                              const OnNewton &);        \
-  template bool         Simulation<dim>::follow_growth_events(Method &,         \
-                                                      const OnStep &,   \
+#define PERIMORPH_INSTANTIATE(dim)                                            \
+  template double Simulation<dim>::potential_energy(const Method &) const;    \
+  template Simulation<dim>::Method Simulation<dim>::solve_with(               \
+    const Bonds::CrackSet<dim> &,                                             \
+    const Mesh::RegionMap &,                                                  \
+    const Method &);                                                          \
+  template void   Simulation<dim>::rise_to(double,                            \
+                                         Method &,                          \
+                                         Step &,                            \
+                                         const OnNewton &);                 \
+  template void   Simulation<dim>::find_load(Advance &,                       \
+                                           Method &,                        \
+                                           Step &,                          \
+                                           const OnNewton &);               \
+  template void   Simulation<dim>::continue_from(const Method &, Method &);   \
+  template double Simulation<dim>::grow_core(Method &,                        \
+                                             const Mesh::RegionParameters &); \
+  template void   Simulation<dim>::scale_to(double,                           \
+                                          Method &,                         \
+                                          Step &,                           \
+                                          const OnNewton &);                \
+  template unsigned int Simulation<dim>::n_large_parts() const;               \
+  template void         Simulation<dim>::end_growth(const std::string &,      \
+                                            const std::string &);     \
+  template void         Simulation<dim>::accept(Advance &, Method &, Step &); \
+  template bool         Simulation<dim>::grow_cracks(Method &,                \
+                                             Step &,                  \
+                                             const OnStep &);         \
+  template bool         Simulation<dim>::grow_at_fixed_loads(Method &,        \
+                                                     Step &,          \
+                                                     const OnStep &); \
+  template void         Simulation<dim>::start_events(Method &,               \
+                                              Step &,                 \
+                                              const OnNewton &);      \
+  template bool         Simulation<dim>::follow_growth_events(Method &,       \
+                                                      const OnStep &, \
                                                       const OnNewton &);
 
   PERIMORPH_INSTANTIATE(2)

@@ -58,7 +58,7 @@ namespace Perimorph::Application
       {
         time      = times[progress.number - 1];
         Step step = progress.step;
-        if (grows && !grow_at_fixed_loads(method, step, on_step, on_newton))
+        if (grows && !grow_at_fixed_loads(method, step, on_step))
           return true;
       }
     for (unsigned int number = progress.number + 1; number <= times.size();
@@ -100,7 +100,7 @@ namespace Perimorph::Application
             progress.number   = number;
             progress.fraction = stepping.next_fraction();
             on_step(step);
-            if (grows && !grow_at_fixed_loads(method, step, on_step, on_newton))
+            if (grows && !grow_at_fixed_loads(method, step, on_step))
               return true;
             time = end;
             continue;

@@ -21,14 +21,12 @@ namespace Perimorph::Bonds
     std::vector<unsigned int>   near;
     for (unsigned int n = 0; n < mesh.n_nodes(); ++n)
       {
-        dealii::BoundingBox<dim> box(
-          std::make_pair(mesh.nodes[n], mesh.nodes[n]));
-        box.extend(horizon[n]);
-        cracks.near(box, near);
-        if (!(alpha[n] > 0.) || (near.empty() && broken.count(n) == 0))
+        const double reach = horizon[n] * (1. + horizon_slack);
+        if (!(alpha[n] > 0.) ||
+            (!cracks.is_within(mesh.nodes[n], reach) && broken.count(n) == 0))
           continue;
         double volume = 0., hidden = 0.;
-        cloud.within(mesh.nodes[n], horizon[n] * (1. + horizon_slack), near);
+        cloud.within(mesh.nodes[n], reach, near);
         for (const unsigned int k : near)
           if (k != n)
             {

@@ -206,10 +206,7 @@ namespace Perimorph::Bonds
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       {
         const auto corners = mesh.corners(c);
-        cracks.near(
-          dealii::BoundingBox<dim>(
-            std::vector<dealii::Point<dim>>(corners.begin(), corners.end())),
-          near);
+        cracks.near(corners, near);
         if (near.empty() || near.back() < first)
           continue;
         double spacing = 0.;

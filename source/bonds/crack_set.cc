@@ -176,6 +176,20 @@ namespace Perimorph::Bonds
 
   template <int dim>
   bool
+  CrackSet<dim>::is_within(const dealii::Point<dim> &point,
+                           const double              radius) const
+  {
+    if (list.empty())
+      return false;
+    dealii::BoundingBox<dim> box(std::make_pair(point, point));
+    box.extend(radius);
+    namespace bgi = boost::geometry::index;
+    return tree->rtree.qbegin(bgi::intersects(box)) != tree->rtree.qend() &&
+           distance(point) <= radius;
+  }
+
+  template <int dim>
+  bool
   CrackSet<dim>::crosses(const dealii::Point<dim> &a,
                          const dealii::Point<dim> &b) const
   {

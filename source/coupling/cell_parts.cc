@@ -82,10 +82,7 @@ namespace Perimorph::Coupling
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       {
         const auto corners = mesh.corners(c);
-        cracks.near(
-          dealii::BoundingBox<dim>(
-            std::vector<dealii::Point<dim>>(corners.begin(), corners.end())),
-          near);
+        cracks.near(corners, near);
         if (near.empty())
           continue;
         for (unsigned int v = 0; v < n_nodes; ++v)

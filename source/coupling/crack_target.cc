@@ -132,10 +132,7 @@ namespace Perimorph::Coupling
           std::array<dealii::Point<dim>, (1u << (dim - 1))> nodes;
           for (unsigned int v = 0; v < nodes.size(); ++v)
             nodes[v] = mesh.nodes[face.nodes[v]];
-          cracks.near(
-            dealii::BoundingBox<dim>(
-              std::vector<dealii::Point<dim>>(nodes.begin(), nodes.end())),
-            near);
+          cracks.near(nodes, near);
           for (const unsigned int f : near)
             if (f >= first_facet && face_is_crossed(cracks.facets()[f], nodes))
               {

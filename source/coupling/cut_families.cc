@@ -17,19 +17,6 @@ namespace Perimorph::Coupling
     /// Families within this many horizons of a crack share the correction.
     constexpr double system_reach = 2.;
 
-    template <int dim>
-    bool
-    is_within(const Bonds::CrackSet<dim> &cracks,
-              const dealii::Point<dim>   &point,
-              const double                radius,
-              std::vector<unsigned int>  &near)
-    {
-      dealii::BoundingBox<dim> box(std::make_pair(point, point));
-      box.extend(radius);
-      cracks.near(box, near);
-      return !near.empty() && cracks.distance(point) <= radius;
-    }
-
     /// How far a family looks: its horizon or the cells at its node.
     template <int dim>
     double
@@ -113,14 +100,13 @@ namespace Perimorph::Coupling
           largest_reach   = std::max(largest_reach, reach(mesh, horizon, n));
         }
     const double radius = system_reach * largest_horizon + 2. * largest_reach;
-    std::vector<double>       weight(mesh.n_nodes(), 0.);
-    std::vector<unsigned int> near;
+    std::vector<double> weight(mesh.n_nodes(), 0.);
     for (const auto &particle : particles)
       weight[particle.node] = alpha[particle.node];
     std::vector<unsigned int> materials;
     for (unsigned int n = 0; n < mesh.n_nodes(); ++n)
       if (alpha[n] > 0. && weight[n] == 0. &&
-          is_within(cracks, mesh.nodes[n], radius, near))
+          cracks.is_within(mesh.nodes[n], radius))
         {
           materials.clear();
           for (const unsigned int c : mesh.node_cells.row(n))
@@ -183,10 +169,8 @@ namespace Perimorph::Coupling
             cut.emplace_back();
             find_bonds(p, cut.back());
           }
-        near[p] = is_cut || is_within(cracks,
-                                      mesh.nodes[node],
-                                      system_reach * horizon[node],
-                                      facets);
+        near[p] = is_cut || cracks.is_within(mesh.nodes[node],
+                                             system_reach * horizon[node]);
       }
     const Bonds::CrackTraces<dim> traces(mesh, cracks);
     target = crack_target(mesh, cracks, traces);

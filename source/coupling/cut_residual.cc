@@ -228,17 +228,9 @@ namespace Perimorph::Coupling
         for (const unsigned int n : part.nodes)
           take(n);
       }
-    std::vector<unsigned int> near;
     for (unsigned int n = 0; n < mesh.n_nodes(); ++n)
-      {
-        const double             radius = system_reach * horizon[n];
-        dealii::BoundingBox<dim> box(
-          std::make_pair(mesh.nodes[n], mesh.nodes[n]));
-        box.extend(radius);
-        cracks.near(box, near);
-        if (!near.empty() && cracks.distance(mesh.nodes[n]) <= radius)
-          take(n);
-      }
+      if (cracks.is_within(mesh.nodes[n], system_reach * horizon[n]))
+        take(n);
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       if (has_cell[c])
         all_cells.push_back(c);

@@ -39,18 +39,7 @@ namespace Perimorph::Damage
                               const double                horizon_ratio,
                               const Materials::PlaneState state)
   {
-    // sum of beta |xi|^2 over the family, spacing 1.
-    const int reach   = static_cast<int>(horizon_ratio + 0.5);
-    const int z_reach = dim == 3 ? reach : 0;
-    double    sum     = 0.;
-    for (int x = -reach; x <= reach; ++x)
-      for (int y = -reach; y <= reach; ++y)
-        for (int z = -z_reach; z <= z_reach; ++z)
-          {
-            const double square = x * x + y * y + z * z;
-            sum += Bonds::volume_factor(horizon_ratio, 1., std::sqrt(square)) *
-                   square;
-          }
+    const double sum     = Peridynamics::lattice_sum<dim>(horizon_ratio, 2.);
     const double spacing = horizon / horizon_ratio;
     return critical_stretch_of_node<dim>(
       fracture_energy,

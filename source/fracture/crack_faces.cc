@@ -20,26 +20,6 @@ namespace Perimorph::Fracture
       return std::atan2(-(away * tip.frame.axes[1]),
                         -(away * tip.frame.axes[0]));
     }
-
-    /// Where the crack is at a distance from its tip.
-    dealii::Tensor<1, 2>
-    place_at(const CrackTip &tip, const double distance)
-    {
-      for (unsigned int k = 1; k < tip.path.size(); ++k)
-        {
-          const auto end = tip.path[k] - tip.frame.origin;
-          if (end.norm() < distance && k + 1 < tip.path.size())
-            continue;
-          const auto   begin = tip.path[k - 1] - tip.frame.origin;
-          const auto   along = end - begin;
-          const double a     = along.norm_square();
-          const double b     = begin * along;
-          const double c     = begin.norm_square() - distance * distance;
-          const double s     = (std::sqrt(b * b - a * c) - b) / a;
-          return begin + std::min(s, 1.) * along;
-        }
-      return -tip.frame.axes[0];
-    }
   } // namespace
 
   bool
@@ -57,8 +37,10 @@ namespace Perimorph::Fracture
   double
   branch_sign(const CrackTip &tip, const dealii::Point<2> &point)
   {
-    const auto   away  = point - tip.frame.origin;
-    const double bend  = deviation(tip, place_at(tip, away.norm()));
+    const auto   away = point - tip.frame.origin;
+    const double bend = deviation(
+      tip,
+      place_behind(tip.frame, tip.path, away.norm()) - tip.frame.origin);
     const double angle = deviation(tip, away);
     return (bend > 0. && angle >= 0. && angle < bend) ||
                (bend < 0. && angle < 0. && angle > bend)

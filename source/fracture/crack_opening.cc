@@ -1,32 +1,11 @@
 #include <perimorph/fracture/crack_opening.h>
+#include <perimorph/fracture/crack_tips.h>
 
 #include <cmath>
 #include <limits>
 
 namespace Perimorph::Fracture
 {
-  namespace
-  {
-    /// The place of the crack at a distance behind its tip.
-    template <int dim>
-    dealii::Point<dim>
-    place_behind(const TipFrame<dim>                   &tip,
-                 const std::vector<dealii::Point<dim>> &path,
-                 const double                           distance)
-    {
-      for (std::size_t k = 1; k < path.size(); ++k)
-        {
-          const double before = path[k - 1].distance(tip.origin);
-          const double after  = path[k].distance(tip.origin);
-          // Pieces are nearly straight on.
-          if (after >= distance)
-            return path[k - 1] + (distance - before) / (after - before) *
-                                   (path[k] - path[k - 1]);
-        }
-      return tip.origin - distance * tip.axes[0];
-    }
-  } // namespace
-
   template <int dim>
   OpeningFactors
   factors_from_opening(const DisplacementFit<dim>                &fit,

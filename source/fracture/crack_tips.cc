@@ -191,6 +191,38 @@ namespace Perimorph::Fracture
     return false;
   }
 
+  template <int dim>
+  dealii::Point<dim>
+  place_behind(const TipFrame<dim>                   &tip,
+               const std::vector<dealii::Point<dim>> &path,
+               const double                           distance)
+  {
+    for (std::size_t k = 1; k < path.size(); ++k)
+      {
+        const auto end = path[k] - tip.origin;
+        if (end.norm() < distance && k + 1 < path.size())
+          continue;
+        // Where the piece meets the circle around the tip.
+        const auto   begin = path[k - 1] - tip.origin;
+        const auto   along = end - begin;
+        const double a     = along.norm_square();
+        const double b     = begin * along;
+        const double c     = begin.norm_square() - distance * distance;
+        const double s     = (std::sqrt(b * b - a * c) - b) / a;
+        return path[k - 1] + std::min(s, 1.) * along;
+      }
+    return tip.origin - distance * tip.axes[0];
+  }
+
+  template dealii::Point<2>
+  place_behind(const TipFrame<2> &,
+               const std::vector<dealii::Point<2>> &,
+               double);
+  template dealii::Point<3>
+  place_behind(const TipFrame<3> &,
+               const std::vector<dealii::Point<3>> &,
+               double);
+
   std::vector<CrackTip>
   find_tips(const Mesh::NodalMesh<2> &mesh, const Bonds::CrackSet<2> &cracks)
   {

@@ -90,10 +90,8 @@ namespace Perimorph::Fracture
                const Bonds::CrackSet<dim> &cracks,
                std::vector<unsigned int>  &facets)
     {
-      const auto                     corners = mesh.corners(cell);
-      const dealii::BoundingBox<dim> box(
-        std::vector<dealii::Point<dim>>(corners.begin(), corners.end()));
-      cracks.near(box, facets);
+      const auto corners = mesh.corners(cell);
+      cracks.near(corners, facets);
       if (facets.empty())
         return false;
       const Mesh::CellGeometry<dim> geometry(corners);

@@ -117,6 +117,19 @@ namespace Perimorph::Parameters
   }
 
 
+  dealii::Patterns::Selection
+  choice(const std::vector<std::string> &names)
+  {
+    return dealii::Patterns::Selection(selection_text(names));
+  }
+
+  std::vector<std::string>
+  automatic_or(std::vector<std::string> names)
+  {
+    names.insert(names.begin(), "automatic");
+    return names;
+  }
+
   std::string
   plain_words(const std::string &pattern_description)
   {

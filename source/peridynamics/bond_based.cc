@@ -38,6 +38,24 @@ namespace Perimorph
 
     template <int dim>
     double
+    lattice_sum(const double horizon_ratio, const double power)
+    {
+      const int reach   = static_cast<int>(horizon_ratio + 0.5);
+      const int z_reach = dim == 3 ? reach : 0;
+      double    sum     = 0.;
+      for (int x = -reach; x <= reach; ++x)
+        for (int y = -reach; y <= reach; ++y)
+          for (int z = -z_reach; z <= z_reach; ++z)
+            {
+              const double length = std::sqrt(x * x + y * y + z * z);
+              sum += Bonds::volume_factor(horizon_ratio, 1., length) *
+                     std::pow(length, power);
+            }
+      return sum;
+    }
+
+    template <int dim>
+    double
     calibration_factor(const double horizon_ratio)
     {
       // Lattice of spacing 1, E = 1. The ratio of c to the shear modulus
@@ -48,16 +66,7 @@ namespace Perimorph
       const double shear_modulus = 0.5 / (1. + allowed_poissons_ratio(state));
 
       // C_abab = 1/2 sum c beta |xi| over the family of a node.
-      const int reach   = static_cast<int>(horizon_ratio + 0.5);
-      const int z_reach = dim == 3 ? reach : 0;
-      double    sum     = 0.;
-      for (int x = -reach; x <= reach; ++x)
-        for (int y = -reach; y <= reach; ++y)
-          for (int z = -z_reach; z <= z_reach; ++z)
-            {
-              const double length = std::sqrt(x * x + y * y + z * z);
-              sum += Bonds::volume_factor(horizon_ratio, 1., length) * length;
-            }
+      const double sum = lattice_sum<dim>(horizon_ratio, 1.);
       if (!(sum > 0.))
         throw Base::InputError(Base::InputMessage{
           "horizon ratio of the bond-based model",
@@ -80,6 +89,10 @@ namespace Perimorph
              first.volume * second.volume / length;
     }
 
+    template double
+    lattice_sum<2>(double, double);
+    template double
+    lattice_sum<3>(double, double);
     template double
     calibration_factor<2>(double);
     template double

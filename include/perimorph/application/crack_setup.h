@@ -32,6 +32,12 @@ namespace Perimorph::Application
   parts_of_body(const Mesh::NodalMesh<dim> &mesh,
                 const Bonds::CrackSet<dim> &cracks);
 
+  /// Number of parts that are more than debris (5 % of the nodes).
+  /// @param marked  nodes whose parts count whatever their size; or empty
+  unsigned int
+  count_large_parts(const std::vector<unsigned int> &parts,
+                    const std::vector<bool>         &marked = {});
+
   /// A face of the surface that a crack opens.
   struct CrackMouth
   {

@@ -162,10 +162,7 @@ namespace Perimorph::Application
     /// one releases its fracture energy; on_step gets the state after each.
     /// @return  false if the body is separated
     bool
-    grow_cracks(Method         &method,
-                Step           &step,
-                const OnStep   &on_step,
-                const OnNewton &on_newton);
+    grow_cracks(Method &method, Step &step, const OnStep &on_step);
     /// Scales the loads of the end time so that each advance is just possible;
     /// on_step gets the states before and after each.
     /// Ends when the body is separated or no tip is left.
@@ -177,10 +174,7 @@ namespace Perimorph::Application
     /// What happens at the loads of a state before they rise further.
     /// @return  false if the body falls apart
     bool
-    grow_at_fixed_loads(Method         &method,
-                        Step           &step,
-                        const OnStep   &on_step,
-                        const OnNewton &on_newton);
+    grow_at_fixed_loads(Method &method, Step &step, const OnStep &on_step);
     /// Before the first event: the solution at the end of the loads, which
     /// those of all events are multiples of.
     /// @throws Base::InputError  loads that are not in proportion to t
@@ -189,7 +183,6 @@ namespace Perimorph::Application
     /// The next advance of one tip, and what it would release.
     struct Advance
     {
-      Fracture::CrackTip     tip;
       Bonds::CrackFacet<dim> facet;
       double                 length; ///< that is new crack in the body
       /// Potential energy at fixed loads; infinite if it cuts off what nothing
@@ -216,7 +209,11 @@ namespace Perimorph::Application
     /// The advance that needs least load; none when no tip is left. Replaces
     /// the method by one whose peridynamic core has room for it.
     std::optional<Advance>
-    best_advance(Method &method, const OnNewton &on_newton);
+    best_advance(Method &method);
+    /// Lets a crack grow: the state of the method becomes the one behind the
+    /// advance.
+    void
+    accept(Advance &advance, Method &method, Step &step);
     /// Equilibrium with a longer crack at the loads of a method; none if it
     /// cuts off what nothing holds.
     std::optional<Method>

@@ -26,6 +26,9 @@ namespace Perimorph::Application
   {
     void
     declare(dealii::ParameterHandler &prm);
+    /// The section 'Cracks' of declare().
+    void
+    declare_cracks(dealii::ParameterHandler &prm);
 
     std::string  title, mode = "coupled", output_folder;
     unsigned int dimension = 2;

@@ -13,8 +13,7 @@ namespace Perimorph::Bonds
   /// Bonds that soften count with the share of the stiffness they lost.
   /// @param alpha  particles are where it is positive
   /// @param[out] n_hidden  pairs of particles and nodes that cracks or broken
-  /// bonds
-  ///                       separate
+  ///                       bonds separate
   template <int dim>
   std::vector<double>
   crack_damage(const Mesh::NodalMesh<dim> &mesh,

@@ -77,6 +77,21 @@ namespace Perimorph::Bonds
     near(const dealii::BoundingBox<dim> &box,
          std::vector<unsigned int>      &indices) const;
 
+    /// The same for the box of some corners.
+    template <std::size_t n>
+    void
+    near(const std::array<dealii::Point<dim>, n> &corners,
+         std::vector<unsigned int>               &indices) const
+    {
+      near(dealii::BoundingBox<dim>(
+             std::vector<dealii::Point<dim>>(corners.begin(), corners.end())),
+           indices);
+    }
+
+    /// True if a facet is not further away from a point than the radius.
+    bool
+    is_within(const dealii::Point<dim> &point, double radius) const;
+
     /// Smallest distance of a point to a facet; infinity without facets.
     double
     distance(const dealii::Point<dim> &point) const;

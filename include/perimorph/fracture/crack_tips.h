@@ -33,6 +33,14 @@ namespace Perimorph::Fracture
     std::vector<dealii::Point<2>> path = {};
   };
 
+  /// Where the crack is at a distance from its tip.
+  /// @param path  CrackTip::path; none: a straight crack
+  template <int dim>
+  dealii::Point<dim>
+  place_behind(const TipFrame<dim>                   &tip,
+               const std::vector<dealii::Point<dim>> &path,
+               double                                 distance);
+
   /// All tips: ends that touch no other facet and lie inside the body. In the
   /// order of the cracks, of one crack in the order of the first ends that they
   /// grew from, so that an advance does not change the order.

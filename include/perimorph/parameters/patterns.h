@@ -45,6 +45,14 @@ namespace Perimorph::Parameters
   std::string
   selection_text(const std::vector<std::string> &names);
 
+  /// One of some names.
+  dealii::Patterns::Selection
+  choice(const std::vector<std::string> &names);
+
+  /// The names behind 'automatic'.
+  std::vector<std::string>
+  automatic_or(std::vector<std::string> names);
+
   /// The description of a pattern, as deal.II prints it, in plain words:
   /// "[Double 0...MAX_DOUBLE (inclusive)]" is "a number >= 0".
   std::string

@@ -27,6 +27,12 @@ namespace Perimorph
     double
     allowed_poissons_ratio(Materials::PlaneState state);
 
+    /// sum of beta |xi|^power over the family of a node in a lattice of spacing
+    /// 1, beta the volume factor.
+    template <int dim>
+    double
+    lattice_sum(double horizon_ratio, double power);
+
     /// Factor for the micromodulus that makes the sum C_abab over a and b, the
     /// mean stiffness over all directions, exact at a node with a full family
     /// on a uniform lattice. It depends on the horizon ratio m = horizon /

@@ -24,6 +24,24 @@ namespace Perimorph::Coupling::CrackTests
     return facets;
   }
 
+  /// Edge, through, two parallel, short, T, crossing, closed.
+  inline std::vector<std::vector<std::vector<Point2>>>
+  crack_shapes()
+  {
+    return {
+      {{Point2(-.1, .5), Point2(.5, .5)}},
+      {{Point2(-.1, .45), Point2(1.1, .57)}},
+      {{Point2(.3, .5), Point2(.7, .5)}, {Point2(.4, .6), Point2(.8, .6)}},
+      {{Point2(.5, .5), Point2(.55, .5)}},
+      {{Point2(.2, .5), Point2(.8, .5)}, {Point2(.5, .5), Point2(.5, .8)}},
+      {{Point2(.2, .5), Point2(.8, .5)}, {Point2(.4, .2), Point2(.6, .8)}},
+      {{Point2(.3, .3),
+        Point2(.7, .33),
+        Point2(.66, .7),
+        Point2(.29, .7),
+        Point2(.31, .28)}}};
+  }
+
   /// The unit square or cube with cracks, peridynamics everywhere or around
   /// the cracks.
   template <int dim>

@@ -44,20 +44,7 @@ namespace Perimorph::Coupling
 
   TEST(CutFamilies, every_affine_field_finds_a_free_surface)
   {
-    // Edge, through, two parallel, short, T, crossing, closed.
-    const std::vector<std::vector<std::vector<Point2>>> shapes = {
-      {{Point2(-.1, .5), Point2(.5, .5)}},
-      {{Point2(-.1, .45), Point2(1.1, .57)}},
-      {{Point2(.3, .5), Point2(.7, .5)}, {Point2(.4, .6), Point2(.8, .6)}},
-      {{Point2(.5, .5), Point2(.55, .5)}},
-      {{Point2(.2, .5), Point2(.8, .5)}, {Point2(.5, .5), Point2(.5, .8)}},
-      {{Point2(.2, .5), Point2(.8, .5)}, {Point2(.4, .2), Point2(.6, .8)}},
-      {{Point2(.3, .3),
-        Point2(.7, .33),
-        Point2(.66, .7),
-        Point2(.29, .7),
-        Point2(.31, .28)}}};
-    for (const auto &shape : shapes)
+    for (const auto &shape : crack_shapes())
       for (const double perturbation : {0., 0.2})
         {
           CrackedPlate plate;

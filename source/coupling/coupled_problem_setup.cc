@@ -1,0 +1,429 @@
+#include <perimorph/base/collective.h>
+#include <perimorph/base/label_sizes.h>
+#include <perimorph/base/point_cloud.h>
+#include <perimorph/coupling/bond_term.h>
+#include <perimorph/coupling/broken_bond_set.h>
+#include <perimorph/coupling/broken_families.h>
+#include <perimorph/coupling/cell_part_term.h>
+#include <perimorph/coupling/correspondence_term.h>
+#include <perimorph/coupling/coupled_problem.h>
+#include <perimorph/coupling/grounding_term.h>
+#include <perimorph/coupling/segment_piece_term.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Perimorph::Coupling
+{
+  const std::vector<std::string> &
+  model_names()
+  {
+    static const std::vector<std::string> names = {"correspondence",
+                                                   "bond based"};
+    return names;
+  }
+
+  const std::vector<std::string> &
+  scheme_names()
+  {
+    static const std::vector<std::string> names = {"consistent",
+                                                   "energy blending",
+                                                   "force blending"};
+    return names;
+  }
+
+  template <int dim>
+  Peridynamics::InfluenceFunction
+  influence_function_of(const CouplingParameters   &parameters,
+                        const Mesh::NodalMesh<dim> &mesh,
+                        const Mesh::RegionMap      &region)
+  {
+    if (parameters.influence)
+      return *parameters.influence;
+    if (dim == 3)
+      return Peridynamics::InfluenceFunction::gaussian;
+    double       sum         = 0.;
+    unsigned int n_particles = 0;
+    for (unsigned int n = 0; n < mesh.n_nodes(); ++n)
+      if (region.alpha[n] > 0.)
+        {
+          sum += region.horizon[n] / mesh.spacing[n];
+          ++n_particles;
+        }
+    return sum > 2.5 * n_particles
+             ? Peridynamics::InfluenceFunction::cubic_spline
+             : Peridynamics::InfluenceFunction::gaussian;
+  }
+
+  namespace
+  {
+    /// One at every node whose family reaches a peridynamic node: force
+    /// blending weights equations, not families, so these families are
+    /// complete.
+    template <int dim>
+    std::vector<double>
+    extended_weight(const Mesh::NodalMesh<dim> &mesh,
+                    const Mesh::RegionMap      &region)
+    {
+      std::vector<double>         extended(mesh.n_nodes(), 0.);
+      const Base::PointCloud<dim> cloud(mesh.nodes);
+      std::vector<unsigned int>   near;
+      for (unsigned int n = 0; n < mesh.n_nodes(); ++n)
+        if (region.alpha[n] > 0.)
+          {
+            cloud.within(mesh.nodes[n],
+                         1.5 * region.horizon[n] + mesh.spacing[n],
+                         near);
+            for (const unsigned int k : near)
+              extended[k] = 1.;
+          }
+      return extended;
+    }
+
+    /// Cells whose nodes are all purely peridynamic.
+    template <int dim>
+    std::vector<bool>
+    core_cells(const Mesh::NodalMesh<dim> &mesh,
+               const std::vector<double>  &alpha)
+    {
+      std::vector<bool> core(mesh.n_cells(), true);
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        for (const unsigned int n : mesh.cells[c])
+          core[c] = core[c] && alpha[n] == 1.;
+      return core;
+    }
+
+    template <int dim>
+    std::vector<double>
+    local_weights(const Fem::NodePartition<dim> &partition,
+                  const std::vector<double>     &alpha,
+                  const bool                     of_elements)
+    {
+      std::vector<double> weights(partition.n_local());
+      for (unsigned int n = 0; n < partition.n_local(); ++n)
+        {
+          const double a = alpha[partition.global(n)];
+          weights[n]     = of_elements ? 1. - a : a;
+        }
+      return weights;
+    }
+
+    template <int dim>
+    ElasticConstants
+    constants_at_rest(const Materials::Material<dim> &law)
+    {
+      const auto   A      = law.tangent(dealii::Tensor<2, dim>());
+      const double lambda = A[0][0][1][1];
+      const double mu     = A[0][1][0][1];
+      if (dim == 2)
+        return {mu,
+                4. * mu * (lambda + mu) / (lambda + 2. * mu),
+                lambda / (lambda + 2. * mu)};
+      return {mu,
+              mu * (3. * lambda + 2. * mu) / (lambda + mu),
+              0.5 * lambda / (lambda + mu)};
+    }
+
+    std::vector<double>
+    complement(const std::vector<double> &alpha)
+    {
+      std::vector<double> result;
+      for (const double a : alpha)
+        result.push_back(1. - a);
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  CoupledProblem<dim>::CoupledProblem(
+    const Mesh::DistributedMesh<dim>       &mesh,
+    const Mesh::RegionMap                  &region,
+    const BodyMaterials<dim>               &materials,
+    const CouplingParameters               &parameters,
+    const Progress                         &progress,
+    std::vector<unsigned int>               more_nodes,
+    const Bonds::CrackSet<dim>             &cracks,
+    const Bonds::BrokenBonds               &broken,
+    std::shared_ptr<const IntactBonds<dim>> intact)
+    : mesh(mesh)
+    , materials(materials)
+    , more_nodes(std::move(more_nodes))
+    , intact_bonds(std::move(intact))
+  {
+    if (region.n_core + region.n_blending == 0)
+      {
+        make_partition({});
+        contributions.push_back(
+          std::make_unique<Fem::ElasticCells<dim>>(mesh.nodal(),
+                                                   *node_partition,
+                                                   materials.laws,
+                                                   std::vector<double>()));
+      }
+    else if (parameters.model == Model::correspondence)
+      make_correspondence(region, parameters, cracks, broken, progress);
+    else
+      make_bonds(region, parameters, cracks, broken, progress);
+
+    all_cells = std::make_unique<Fem::ElasticCells<dim>>(mesh.nodal(),
+                                                         *node_partition,
+                                                         materials.laws,
+                                                         std::vector<double>());
+    for (const auto &term : contributions)
+      if (dynamic_cast<const Fem::ElasticCells<dim> *>(term.get()))
+        local_counts.active_cells += term->n_blocks();
+  }
+
+  template <int dim>
+  void
+  CoupledProblem<dim>::make_correspondence(const Mesh::RegionMap    &region,
+                                           const CouplingParameters &parameters,
+                                           const Bonds::CrackSet<dim> &cracks,
+                                           const Bonds::BrokenBonds   &broken,
+                                           const Progress             &progress)
+  {
+    const auto      &nodal  = mesh.nodal();
+    const bool       forces = parameters.scheme == Scheme::force_blending;
+    FamilyParameters options{
+      influence_function_of(parameters, nodal, region),
+      parameters.gamma,
+      parameters.scale.value_or(dim == 2 ? StabilizationScale::bending
+                                         : StabilizationScale::shear_modulus),
+      parameters.crack_rule,
+      {},
+      progress};
+    for (const auto &law : materials.laws)
+      options.constants.push_back(constants_at_rest(*law));
+
+    IntactBonds<dim> found;
+    const bool       is_known = intact_bonds != nullptr;
+    auto            &set      = found.families;
+    Base::collectively(mesh.communicator(), [&]() {
+      if (is_known)
+        set = intact_bonds->families;
+      else
+        set = parameters.scheme == Scheme::consistent
+                ? consistent_families(nodal,
+                                      region.alpha,
+                                      region.horizon,
+                                      options,
+                                      cracks,
+                                      &found.cracked)
+                : classical_families(nodal,
+                                     forces ? extended_weight(nodal, region)
+                                            : region.alpha,
+                                     region.horizon,
+                                     options,
+                                     cracks);
+      if (!is_known && parameters.bonds_may_break)
+        intact_bonds = std::make_shared<const IntactBonds<dim>>(found);
+      if (!broken.empty())
+        set = break_bonds(nodal,
+                          region.horizon,
+                          options,
+                          broken,
+                          set,
+                          local_counts.isolated);
+    });
+    cracked = is_known ? intact_bonds->cracked : found.cracked;
+    std::vector<unsigned int> parts;
+    if (!broken.empty())
+      parts = find_parts(nodal, region.alpha, set, mesh.communicator());
+    local_counts.particles = set.n_particles();
+    local_counts.bonds     = set.n_bonds();
+
+    std::vector<unsigned int> needed;
+    add_family_nodes(set, needed);
+    make_partition(needed);
+    auto term = std::make_unique<CorrespondenceTerm<dim>>(std::move(set),
+                                                          *node_partition,
+                                                          materials.laws);
+    families.push_back(term.get());
+    add_terms(region,
+              parameters.scheme,
+              complement(region.alpha),
+              {},
+              std::move(term));
+    if (!broken.empty())
+      ground_loose_parts(parts);
+  }
+
+  template <int dim>
+  void
+  CoupledProblem<dim>::ground_loose_parts(
+    const std::vector<unsigned int> &parts,
+    const std::vector<bool>         &more)
+  {
+    const auto size = Base::label_sizes(parts);
+    if (size.size() == 1 && more.empty())
+      return;
+    const unsigned int largest =
+      std::max_element(size.begin(), size.end()) - size.begin();
+    // 1e-11 of the diagonal of the stiffness (numerics-damage.md, section 5).
+    double                    mean_spacing = 0.;
+    std::vector<unsigned int> loose;
+    for (unsigned int n = 0; n < parts.size(); ++n)
+      {
+        mean_spacing += mesh.nodal().spacing[n] / parts.size();
+        // A part of one node has no stiffness, not even if none is larger.
+        if ((parts[n] != largest || size[largest] == 1 ||
+             (!more.empty() && more[n])) &&
+            mesh.nodal().owns_node(n))
+          loose.push_back(node_partition->local(n));
+      }
+    contributions.push_back(std::make_unique<GroundingTerm<dim>>(
+      std::move(loose),
+      1e-11 * constants_at_rest(*materials.laws[0]).youngs_modulus *
+        std::pow(mean_spacing, dim - 2)));
+  }
+
+  template <int dim>
+  void
+  CoupledProblem<dim>::make_bonds(const Mesh::RegionMap      &region,
+                                  const CouplingParameters   &parameters,
+                                  const Bonds::CrackSet<dim> &cracks,
+                                  const Bonds::BrokenBonds   &broken,
+                                  const Progress             &progress)
+  {
+    const auto &nodal      = mesh.nodal();
+    const bool  forces     = parameters.scheme == Scheme::force_blending;
+    const bool  consistent = parameters.scheme == Scheme::consistent;
+    const bool  finite_strain =
+      std::any_of(materials.laws.begin(),
+                  materials.laws.end(),
+                  [](const auto &law) { return !law->is_linear(); });
+    BondCoupling<dim> coupling;
+    Base::collectively(mesh.communicator(), [&]() {
+      if (intact_bonds)
+        coupling = intact_bonds->coupling;
+      else
+        coupling = make_bond_coupling(nodal,
+                                      forces ? extended_weight(nodal, region)
+                                             : region.alpha,
+                                      region.horizon,
+                                      materials.bond_constants,
+                                      !consistent      ? ElementShare::none
+                                      : !finite_strain ? ElementShare::tensors
+                                                       : ElementShare::springs,
+                                      progress,
+                                      cracks,
+                                      parameters.crack_rule);
+      if (!intact_bonds && parameters.bonds_may_break)
+        {
+          IntactBonds<dim> found;
+          found.coupling = coupling;
+          intact_bonds   = std::make_shared<const IntactBonds<dim>>(found);
+        }
+      if (!broken.empty())
+        break_bonds(nodal, broken, coupling);
+    });
+    bond_set             = coupling.bonds;
+    cracked              = coupling.cracked;
+    local_counts.bonds   = coupling.bonds.nodes.size();
+    local_counts.dropped = coupling.bonds.n_dropped;
+    for (unsigned int n = nodal.owned_begin; n < nodal.owned_end; ++n)
+      local_counts.particles += region.alpha[n] > 0. ? 1 : 0;
+
+    std::vector<unsigned int> needed;
+    add_bond_nodes(coupling.bonds, needed);
+    add_part_nodes(coupling.parts, needed);
+    make_partition(needed);
+    std::unique_ptr<Term> bonds;
+    if (finite_strain)
+      bonds =
+        std::make_unique<FiniteBondTerm<dim>>(coupling.bonds, *node_partition);
+    else
+      bonds = std::make_unique<BondTerm<dim>>(coupling.bonds, *node_partition);
+    add_terms(region,
+              parameters.scheme,
+              consistent ? std::vector<double>() : complement(region.alpha),
+              coupling.replaced,
+              std::move(bonds));
+    if (consistent && finite_strain)
+      contributions.push_back(
+        std::make_unique<SegmentPieceTerm<dim>>(nodal,
+                                                *node_partition,
+                                                std::move(coupling.springs)));
+    else if (consistent)
+      contributions.push_back(
+        std::make_unique<SegmentTerm<dim>>(nodal, *node_partition, coupling));
+    if (!coupling.replaced.empty())
+      contributions.push_back(
+        std::make_unique<CellPartTerm<dim>>(*node_partition,
+                                            std::move(coupling.parts),
+                                            std::move(coupling.part_tensors)));
+    if (broken.empty())
+      return;
+    std::vector<bool> lost(nodal.n_nodes(), false);
+    for (const auto &bond : broken.list())
+      if (bond.teeth == broken.n_teeth())
+        lost[bond.nodes[0]] = lost[bond.nodes[1]] = true;
+    ground_loose_parts(parts(region), lost);
+  }
+
+  template <int dim>
+  void
+  CoupledProblem<dim>::make_partition(std::vector<unsigned int> needed)
+  {
+    Fem::add_cell_nodes(mesh.nodal(), needed);
+    needed.insert(needed.end(), more_nodes.begin(), more_nodes.end());
+    node_partition =
+      std::make_unique<Fem::NodePartition<dim>>(mesh.nodal(),
+                                                needed,
+                                                mesh.communicator());
+  }
+
+  template <int dim>
+  void
+  CoupledProblem<dim>::add_terms(const Mesh::RegionMap     &region,
+                                 const Scheme               scheme,
+                                 const std::vector<double> &element_weight,
+                                 const std::vector<bool>   &replaced,
+                                 std::unique_ptr<Term>      particles)
+  {
+    const bool forces   = scheme == Scheme::force_blending;
+    auto       elements = std::make_unique<Fem::ElasticCells<dim>>(
+      mesh.nodal(),
+      *node_partition,
+      materials.laws,
+      forces ? std::vector<double>() : element_weight,
+      forces ? core_cells(mesh.nodal(), region.alpha) : replaced);
+    if (forces)
+      {
+        elements->set_row_weights(
+          local_weights(*node_partition, region.alpha, true));
+        particles->set_row_weights(
+          local_weights(*node_partition, region.alpha, false));
+      }
+    if (dealii::Utilities::MPI::max(elements->n_blocks(), mesh.communicator()) >
+        0)
+      contributions.push_back(std::move(elements));
+    contributions.push_back(std::move(particles));
+  }
+
+  template Peridynamics::InfluenceFunction
+  influence_function_of<2>(const CouplingParameters &,
+                           const Mesh::NodalMesh<2> &,
+                           const Mesh::RegionMap &);
+  template Peridynamics::InfluenceFunction
+  influence_function_of<3>(const CouplingParameters &,
+                           const Mesh::NodalMesh<3> &,
+                           const Mesh::RegionMap &);
+
+#define PERIMORPH_INSTANTIATE(dim)              \
+  template CoupledProblem<dim>::CoupledProblem( \
+    const Mesh::DistributedMesh<dim> &,         \
+    const Mesh::RegionMap &,                    \
+    const BodyMaterials<dim> &,                 \
+    const CouplingParameters &,                 \
+    const Progress &,                           \
+    std::vector<unsigned int>,                  \
+    const Bonds::CrackSet<dim> &,               \
+    const Bonds::BrokenBonds &,                 \
+    std::shared_ptr<const IntactBonds<dim>>);
+
+  PERIMORPH_INSTANTIATE(2)
+  PERIMORPH_INSTANTIATE(3)
+#undef PERIMORPH_INSTANTIATE
+} // namespace Perimorph::Coupling
