@@ -5,6 +5,8 @@ find_package(nanoflann 1.4 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(GTest REQUIRED)
 
+find_library(PERIMORPH_MUMPS_LIBRARY dmumps REQUIRED)
 find_path(PERIMORPH_GMSH_INCLUDE_DIR gmsh.h REQUIRED)
 find_program(PERIMORPH_MPIRUN mpirun REQUIRED)
-mark_as_advanced(PERIMORPH_GMSH_INCLUDE_DIR PERIMORPH_MPIRUN)
+mark_as_advanced(
+  PERIMORPH_GMSH_INCLUDE_DIR PERIMORPH_MPIRUN PERIMORPH_MUMPS_LIBRARY)

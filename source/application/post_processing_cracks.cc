@@ -150,10 +150,22 @@ namespace Perimorph::Application
     const Peridynamics::FamilySet<dim> &families) const
   {
     if constexpr (dim == 2)
-      return Fracture::tip_quantities(cracked_body(state, region, families),
-                                      Fracture::find_tips(mesh.nodal(), cracks),
-                                      {},
-                                      mesh.communicator());
+      {
+        // The state behind an advance is also the one before the next.
+        auto &last = last_tips;
+        if (last.n_facets != cracks.facets().size() ||
+            last.alpha != region.alpha ||
+            last.displacement != state.displacement)
+          last = {
+            cracks.facets().size(),
+            region.alpha,
+            state.displacement,
+            Fracture::tip_quantities(cracked_body(state, region, families),
+                                     Fracture::find_tips(mesh.nodal(), cracks),
+                                     {},
+                                     mesh.communicator())};
+        return last.quantities;
+      }
     else
       return {};
   }

@@ -2,6 +2,7 @@
 #include <perimorph/application/simulation.h>
 #include <perimorph/base/collective.h>
 #include <perimorph/base/log.h>
+#include <perimorph/base/point_cloud.h>
 #include <perimorph/base/progress.h>
 #include <perimorph/bonds/crack_damage.h>
 #include <perimorph/output/csv_writer.h>
@@ -11,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <sstream>
 
 namespace Perimorph::Application
@@ -63,6 +65,8 @@ namespace Perimorph::Application
     open_output(parameters_text);
     try
       {
+        if (parameters.growth.active)
+          factor_memory = make_factor_memory();
         Method method = set_up(parameters.region.mode);
         report_set_up(method);
         if (resumed)
@@ -133,10 +137,9 @@ namespace Perimorph::Application
 
   template <int dim>
   typename Simulation<dim>::Method
-  Simulation<dim>::make_method(
-    const Mesh::RegionMap                            &region,
-    const Bonds::CrackSet<dim>                       &cracks,
-    std::shared_ptr<const Coupling::IntactBonds<dim>> intact)
+  Simulation<dim>::make_method(const Mesh::RegionMap      &region,
+                               const Bonds::CrackSet<dim> &cracks,
+                               Coupling::SharedParts<dim>  shared)
   {
     const auto timer = timing.scope("setup");
     Method     method;
@@ -159,7 +162,7 @@ namespace Perimorph::Application
         supports->coupled_nodes(),
         cracks,
         broken,
-        std::move(intact));
+        std::move(shared));
     }
     method.equilibrium = std::make_unique<Solvers::Equilibrium<dim>>(
       *mesh,
@@ -169,11 +172,52 @@ namespace Perimorph::Application
       Solvers::EquilibriumParameters{parameters.linear_solver,
                                      parameters.tangent,
                                      parameters.linear_tolerance,
-                                     parameters.newton},
+                                     parameters.newton,
+                                     factor_memory},
       log,
       timing);
     method.problem->partition().initialize(method.displacement);
     return method;
+  }
+
+  template <int dim>
+  std::shared_ptr<Solvers::FactorMemory>
+  Simulation<dim>::make_factor_memory() const
+  {
+    // A longer crack changes more than condensation pays for.
+    if (!parameters.growth.bonds)
+      return std::make_shared<Solvers::FactorMemory>();
+    // Where families change, those around them do in the next events.
+    constexpr std::size_t many = 1200;
+    const auto            cloud =
+      std::make_shared<const Base::PointCloud<dim>>(mesh->nodal().nodes);
+    return std::make_shared<Solvers::FactorMemory>(
+      [this, cloud](const std::vector<unsigned int> &unknowns) {
+        for (const double horizons : {2., 1.})
+          {
+            std::set<unsigned int>    nodes;
+            std::vector<unsigned int> near;
+            for (std::size_t k = 0; k < unknowns.size(); ++k)
+              {
+                const unsigned int node = unknowns[k] / dim;
+                if (k > 0 && unknowns[k - 1] / dim == node)
+                  continue;
+                cloud->within(cloud->points()[node],
+                              horizons * region.horizon[node],
+                              near);
+                nodes.insert(node);
+                nodes.insert(near.begin(), near.end());
+              }
+            if (dim * nodes.size() > many)
+              continue;
+            std::vector<unsigned int> all;
+            for (const unsigned int node : nodes)
+              for (int d = 0; d < dim; ++d)
+                all.push_back(dim * node + d);
+            return all;
+          }
+        return unknowns;
+      });
   }
 
   template <int dim>

@@ -281,7 +281,7 @@ namespace Perimorph::Application
         row.push_back(broken.share_left(bond.nodes[0], bond.nodes[1]));
         broken_table->write_row(row);
       }
-    auto next = make_method(method.region, cracks, method.problem->intact());
+    auto next = make_method(method.region, cracks, method.problem->shared());
     next.time = method.time;
     log << "  event " << n_events << ": " << bonds.size()
         << (broken.n_teeth() > 1 ? " bonds soften" : " bonds break")

@@ -18,11 +18,15 @@ namespace Perimorph::Application
   double
   Simulation<dim>::potential_energy(const Method &method) const
   {
-    const auto state     = gather(method);
-    double     potential = state.strain_energy;
-    for (unsigned int n = 0; n < state.displacement.size(); ++n)
-      potential -= state.external_force[n] * state.displacement[n];
-    return potential;
+    const auto &equilibrium = *method.equilibrium;
+    const auto &loads       = equilibrium.external_forces();
+    if (equilibrium.is_linear() && equilibrium.is_symmetric())
+      return 0.5 * (equilibrium.internal_forces() * method.displacement) -
+             loads * method.displacement;
+    Fem::Vector displacement(method.displacement);
+    displacement.update_ghost_values();
+    return method.problem->strain_energy(displacement) -
+           loads * method.displacement;
   }
 
   template <int dim>
@@ -31,7 +35,9 @@ namespace Perimorph::Application
                               const Mesh::RegionMap      &other_region,
                               const Method               &start)
   {
-    auto method = make_method(other_region, other_cracks);
+    auto shared = start.problem->shared();
+    shared.intact.reset();
+    auto method = make_method(other_region, other_cracks, std::move(shared));
     continue_from(start, method);
     return method;
   }

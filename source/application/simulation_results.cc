@@ -331,6 +331,10 @@ namespace Perimorph::Application
         result->set("growth", "released_energy", released_energy);
         result->set("growth", "dissipated_energy", dissipated_energy);
       }
+    if (factor_memory && factor_memory->n_reused > 0)
+      result->set("skipped",
+                  "eliminations_of_far_field",
+                  factor_memory->n_reused);
     const auto table  = timing.table();
     const auto memory = Base::peak_memory(communicator);
     result->set_status(status);

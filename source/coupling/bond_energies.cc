@@ -1,27 +1,33 @@
+#include <perimorph/base/gather.h>
 #include <perimorph/coupling/bond_energies.h>
 #include <perimorph/peridynamics/bond_based.h>
 #include <perimorph/peridynamics/correspondence.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <algorithm>
+#include <tuple>
 
 namespace Perimorph::Coupling
 {
   namespace
   {
-    using Half = std::pair<std::array<unsigned int, 2>, double>;
+    struct Half
+    {
+      std::array<unsigned int, 2> nodes;
+      double                      energy;
+    };
 
     /// Sorts by nodes and adds up what belongs to the same bond, in an order
     /// that does not depend on who sent it.
     void
     merge(std::vector<Half> &halves)
     {
-      std::sort(halves.begin(), halves.end());
+      std::sort(halves.begin(), halves.end(), [](const auto &a, const auto &b) {
+        return std::tie(a.nodes, a.energy) < std::tie(b.nodes, b.energy);
+      });
       std::size_t last = 0;
       for (std::size_t k = 1; k < halves.size(); ++k)
-        if (halves[k].first == halves[last].first)
-          halves[last].second += halves[k].second;
+        if (halves[k].nodes == halves[last].nodes)
+          halves[last].energy += halves[k].energy;
         else
           halves[++last] = halves[k];
       halves.resize(std::min(halves.size(), last + 1));
@@ -30,15 +36,12 @@ namespace Perimorph::Coupling
     std::vector<BondEnergy>
     of_all_ranks(const std::vector<Half> &halves, const MPI_Comm communicator)
     {
-      std::vector<Half> all;
-      for (const auto &part :
-           dealii::Utilities::MPI::all_gather(communicator, halves))
-        all.insert(all.end(), part.begin(), part.end());
+      auto all = Base::gather_on_all(communicator, halves);
       merge(all);
       std::vector<BondEnergy> result;
       result.reserve(all.size());
       for (const auto &half : all)
-        result.push_back({half.first, half.second});
+        result.push_back({half.nodes, half.energy});
       return result;
     }
   } // namespace

@@ -83,7 +83,7 @@ namespace Perimorph::Coupling
       for (const auto &term : contributions)
         term->extrapolate_stress(displacement, step);
       if (of_full_elements)
-        all_cells->extrapolate_stress(displacement, step);
+        parts_to_share.all_cells->extrapolate_stress(displacement, step);
     });
   }
 
@@ -93,7 +93,7 @@ namespace Perimorph::Coupling
   {
     for (const auto &term : contributions)
       term->forget_stress();
-    all_cells->forget_stress();
+    parts_to_share.all_cells->forget_stress();
   }
 
   template <int dim>
@@ -121,7 +121,7 @@ namespace Perimorph::Coupling
     for (const auto &term : contributions)
       if (const auto families =
             dynamic_cast<const CorrespondenceTerm<dim> *>(term.get()))
-        return families->global_families(*node_partition);
+        return families->global_families(partition());
     return {};
   }
 
@@ -150,7 +150,7 @@ namespace Perimorph::Coupling
         return nodal_virial_stress(
           mesh.nodal(),
           region,
-          bonds->pair_forces(displacement, *node_partition),
+          bonds->pair_forces(displacement, partition()),
           mesh.communicator());
     return {};
   }
@@ -189,7 +189,7 @@ namespace Perimorph::Coupling
           displacement.update_ghost_values();
           internal_forces(displacement, forces);
           reference = 0.;
-          all_cells->add_residual(displacement, reference);
+          parts_to_share.all_cells->add_residual(displacement, reference);
           reference.compress(dealii::VectorOperation::add);
 
           // Relative to the stiffest material at the node.

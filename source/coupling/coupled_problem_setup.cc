@@ -137,39 +137,37 @@ namespace Perimorph::Coupling
   } // namespace
 
   template <int dim>
-  CoupledProblem<dim>::CoupledProblem(
-    const Mesh::DistributedMesh<dim>       &mesh,
-    const Mesh::RegionMap                  &region,
-    const BodyMaterials<dim>               &materials,
-    const CouplingParameters               &parameters,
-    const Progress                         &progress,
-    std::vector<unsigned int>               more_nodes,
-    const Bonds::CrackSet<dim>             &cracks,
-    const Bonds::BrokenBonds               &broken,
-    std::shared_ptr<const IntactBonds<dim>> intact)
+  CoupledProblem<dim>::CoupledProblem(const Mesh::DistributedMesh<dim> &mesh,
+                                      const Mesh::RegionMap            &region,
+                                      const BodyMaterials<dim>   &materials,
+                                      const CouplingParameters   &parameters,
+                                      const Progress             &progress,
+                                      std::vector<unsigned int>   more_nodes,
+                                      const Bonds::CrackSet<dim> &cracks,
+                                      const Bonds::BrokenBonds   &broken,
+                                      SharedParts<dim>            shared)
     : mesh(mesh)
     , materials(materials)
     , more_nodes(std::move(more_nodes))
-    , intact_bonds(std::move(intact))
+    , parts_to_share(std::move(shared))
   {
     if (region.n_core + region.n_blending == 0)
       {
         make_partition({});
-        contributions.push_back(
-          std::make_unique<Fem::ElasticCells<dim>>(mesh.nodal(),
-                                                   *node_partition,
-                                                   materials.laws,
-                                                   std::vector<double>()));
+        make_elements({}, {});
+        contributions.push_back(parts_to_share.elements);
       }
     else if (parameters.model == Model::correspondence)
       make_correspondence(region, parameters, cracks, broken, progress);
     else
       make_bonds(region, parameters, cracks, broken, progress);
 
-    all_cells = std::make_unique<Fem::ElasticCells<dim>>(mesh.nodal(),
-                                                         *node_partition,
-                                                         materials.laws,
-                                                         std::vector<double>());
+    if (!parts_to_share.all_cells || !parts_to_share.all_cells->is_linear())
+      parts_to_share.all_cells =
+        std::make_shared<Fem::ElasticCells<dim>>(mesh.nodal(),
+                                                 partition(),
+                                                 materials.laws,
+                                                 std::vector<double>());
     for (const auto &term : contributions)
       if (dynamic_cast<const Fem::ElasticCells<dim> *>(term.get()))
         local_counts.active_cells += term->n_blocks();
@@ -197,11 +195,11 @@ namespace Perimorph::Coupling
       options.constants.push_back(constants_at_rest(*law));
 
     IntactBonds<dim> found;
-    const bool       is_known = intact_bonds != nullptr;
+    const bool       is_known = parts_to_share.intact != nullptr;
     auto            &set      = found.families;
     Base::collectively(mesh.communicator(), [&]() {
       if (is_known)
-        set = intact_bonds->families;
+        set = parts_to_share.intact->families;
       else
         set = parameters.scheme == Scheme::consistent
                 ? consistent_families(nodal,
@@ -217,7 +215,7 @@ namespace Perimorph::Coupling
                                      options,
                                      cracks);
       if (!is_known && parameters.bonds_may_break)
-        intact_bonds = std::make_shared<const IntactBonds<dim>>(found);
+        parts_to_share.intact = std::make_shared<const IntactBonds<dim>>(found);
       if (!broken.empty())
         set = break_bonds(nodal,
                           region.horizon,
@@ -226,7 +224,7 @@ namespace Perimorph::Coupling
                           set,
                           local_counts.isolated);
     });
-    cracked = is_known ? intact_bonds->cracked : found.cracked;
+    cracked = is_known ? parts_to_share.intact->cracked : found.cracked;
     std::vector<unsigned int> parts;
     if (!broken.empty())
       parts = find_parts(nodal, region.alpha, set, mesh.communicator());
@@ -237,7 +235,7 @@ namespace Perimorph::Coupling
     add_family_nodes(set, needed);
     make_partition(needed);
     auto term = std::make_unique<CorrespondenceTerm<dim>>(std::move(set),
-                                                          *node_partition,
+                                                          partition(),
                                                           materials.laws);
     families.push_back(term.get());
     add_terms(region,
@@ -270,7 +268,7 @@ namespace Perimorph::Coupling
         if ((parts[n] != largest || size[largest] == 1 ||
              (!more.empty() && more[n])) &&
             mesh.nodal().owns_node(n))
-          loose.push_back(node_partition->local(n));
+          loose.push_back(partition().local(n));
       }
     contributions.push_back(std::make_unique<GroundingTerm<dim>>(
       std::move(loose),
@@ -295,8 +293,8 @@ namespace Perimorph::Coupling
                   [](const auto &law) { return !law->is_linear(); });
     BondCoupling<dim> coupling;
     Base::collectively(mesh.communicator(), [&]() {
-      if (intact_bonds)
-        coupling = intact_bonds->coupling;
+      if (parts_to_share.intact)
+        coupling = parts_to_share.intact->coupling;
       else
         coupling = make_bond_coupling(nodal,
                                       forces ? extended_weight(nodal, region)
@@ -309,11 +307,12 @@ namespace Perimorph::Coupling
                                       progress,
                                       cracks,
                                       parameters.crack_rule);
-      if (!intact_bonds && parameters.bonds_may_break)
+      if (!parts_to_share.intact && parameters.bonds_may_break)
         {
           IntactBonds<dim> found;
           found.coupling = coupling;
-          intact_bonds   = std::make_shared<const IntactBonds<dim>>(found);
+          parts_to_share.intact =
+            std::make_shared<const IntactBonds<dim>>(found);
         }
       if (!broken.empty())
         break_bonds(nodal, broken, coupling);
@@ -332,9 +331,9 @@ namespace Perimorph::Coupling
     std::unique_ptr<Term> bonds;
     if (finite_strain)
       bonds =
-        std::make_unique<FiniteBondTerm<dim>>(coupling.bonds, *node_partition);
+        std::make_unique<FiniteBondTerm<dim>>(coupling.bonds, partition());
     else
-      bonds = std::make_unique<BondTerm<dim>>(coupling.bonds, *node_partition);
+      bonds = std::make_unique<BondTerm<dim>>(coupling.bonds, partition());
     add_terms(region,
               parameters.scheme,
               consistent ? std::vector<double>() : complement(region.alpha),
@@ -343,14 +342,14 @@ namespace Perimorph::Coupling
     if (consistent && finite_strain)
       contributions.push_back(
         std::make_unique<SegmentPieceTerm<dim>>(nodal,
-                                                *node_partition,
+                                                partition(),
                                                 std::move(coupling.springs)));
     else if (consistent)
       contributions.push_back(
-        std::make_unique<SegmentTerm<dim>>(nodal, *node_partition, coupling));
+        std::make_unique<SegmentTerm<dim>>(nodal, partition(), coupling));
     if (!coupling.replaced.empty())
       contributions.push_back(
-        std::make_unique<CellPartTerm<dim>>(*node_partition,
+        std::make_unique<CellPartTerm<dim>>(partition(),
                                             std::move(coupling.parts),
                                             std::move(coupling.part_tensors)));
     if (broken.empty())
@@ -368,37 +367,64 @@ namespace Perimorph::Coupling
   {
     Fem::add_cell_nodes(mesh.nodal(), needed);
     needed.insert(needed.end(), more_nodes.begin(), more_nodes.end());
-    node_partition =
-      std::make_unique<Fem::NodePartition<dim>>(mesh.nodal(),
-                                                needed,
-                                                mesh.communicator());
+    const bool fits =
+      parts_to_share.partition && parts_to_share.partition->sees(needed);
+    if (dealii::Utilities::MPI::min(fits ? 1 : 0, mesh.communicator()) == 1)
+      return;
+    parts_to_share.partition =
+      std::make_shared<const Fem::NodePartition<dim>>(mesh.nodal(),
+                                                      needed,
+                                                      mesh.communicator());
+    parts_to_share.all_cells.reset();
+    parts_to_share.elements.reset();
   }
 
   template <int dim>
   void
-  CoupledProblem<dim>::add_terms(const Mesh::RegionMap     &region,
-                                 const Scheme               scheme,
-                                 const std::vector<double> &element_weight,
-                                 const std::vector<bool>   &replaced,
-                                 std::unique_ptr<Term>      particles)
+  CoupledProblem<dim>::make_elements(std::vector<double> weight,
+                                     std::vector<bool>   skip)
   {
-    const bool forces   = scheme == Scheme::force_blending;
-    auto       elements = std::make_unique<Fem::ElasticCells<dim>>(
-      mesh.nodal(),
-      *node_partition,
-      materials.laws,
-      forces ? std::vector<double>() : element_weight,
-      forces ? core_cells(mesh.nodal(), region.alpha) : replaced);
+    auto &known = parts_to_share;
+    // Terms that are not linear remember stresses.
+    const bool fits = known.elements && known.elements->is_linear() &&
+                      known.element_weight == weight && known.replaced == skip;
+    if (dealii::Utilities::MPI::min(fits ? 1 : 0, mesh.communicator()) == 1)
+      return;
+    known.elements = std::make_shared<Fem::ElasticCells<dim>>(mesh.nodal(),
+                                                              partition(),
+                                                              materials.laws,
+                                                              weight,
+                                                              skip);
+    known.element_weight = std::move(weight);
+    known.replaced       = std::move(skip);
+  }
+
+  template <int dim>
+  void
+  CoupledProblem<dim>::add_terms(const Mesh::RegionMap &region,
+                                 const Scheme           scheme,
+                                 std::vector<double>    element_weight,
+                                 std::vector<bool>      replaced,
+                                 std::unique_ptr<Term>  particles)
+  {
+    const bool forces = scheme == Scheme::force_blending;
+    if (forces)
+      {
+        element_weight.clear();
+        replaced = core_cells(mesh.nodal(), region.alpha);
+      }
+    make_elements(std::move(element_weight), std::move(replaced));
+    const auto &elements = parts_to_share.elements;
     if (forces)
       {
         elements->set_row_weights(
-          local_weights(*node_partition, region.alpha, true));
+          local_weights(partition(), region.alpha, true));
         particles->set_row_weights(
-          local_weights(*node_partition, region.alpha, false));
+          local_weights(partition(), region.alpha, false));
       }
     if (dealii::Utilities::MPI::max(elements->n_blocks(), mesh.communicator()) >
         0)
-      contributions.push_back(std::move(elements));
+      contributions.push_back(elements);
     contributions.push_back(std::move(particles));
   }
 
@@ -421,7 +447,7 @@ namespace Perimorph::Coupling
     std::vector<unsigned int>,                  \
     const Bonds::CrackSet<dim> &,               \
     const Bonds::BrokenBonds &,                 \
-    std::shared_ptr<const IntactBonds<dim>>);
+    SharedParts<dim>);
 
   PERIMORPH_INSTANTIATE(2)
   PERIMORPH_INSTANTIATE(3)

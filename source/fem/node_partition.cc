@@ -41,6 +41,18 @@ namespace Perimorph::Fem
   }
 
   template <int dim>
+  bool
+  NodePartition<dim>::sees(const std::vector<unsigned int> &nodes) const
+  {
+    return std::all_of(nodes.begin(),
+                       nodes.end(),
+                       [this](const unsigned int n) {
+                         return (n >= owned_begin && n < owned_end) ||
+                                ghosts.is_element(n);
+                       });
+  }
+
+  template <int dim>
   void
   NodePartition<dim>::initialize(Vector &vector) const
   {

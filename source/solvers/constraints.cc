@@ -427,9 +427,10 @@ namespace Perimorph::Solvers
   }
 
   template <int dim>
+  template <typename AnyMatrix>
   void
   Constraints<dim>::add_geometric_stiffness(const Vector &force,
-                                            Matrix       &matrix) const
+                                            AnyMatrix    &matrix) const
   {
     if (are_linear())
       return;
@@ -477,4 +478,14 @@ namespace Perimorph::Solvers
 
   template class Constraints<2>;
   template class Constraints<3>;
+
+#define PERIMORPH_INSTANTIATE(dim, AnyMatrix)                             \
+  template void Constraints<dim>::add_geometric_stiffness(const Vector &, \
+                                                          AnyMatrix &) const;
+
+  PERIMORPH_INSTANTIATE(2, Matrix)
+  PERIMORPH_INSTANTIATE(3, Matrix)
+  PERIMORPH_INSTANTIATE(2, dealii::SparseMatrix<double>)
+  PERIMORPH_INSTANTIATE(3, dealii::SparseMatrix<double>)
+#undef PERIMORPH_INSTANTIATE
 } // namespace Perimorph::Solvers

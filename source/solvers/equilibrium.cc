@@ -71,46 +71,107 @@ namespace Perimorph::Solvers
   Equilibrium<dim>::~Equilibrium() = default;
 
   template <int dim>
+  typename TangentAssembler<dim>::Terms
+  Equilibrium<dim>::tangent_terms() const
+  {
+    auto terms =
+      solver_choice.matrix_free ? problem.assembled_terms() : problem.terms();
+    if (follower.acts())
+      terms.push_back(&follower);
+    return terms;
+  }
+
+  template <int dim>
+  template <typename AnyMatrix>
+  void
+  Equilibrium<dim>::assemble_tangent(const Terms  &terms,
+                                     const Vector &displacement,
+                                     AnyMatrix    &tangent_matrix)
+  {
+    std::size_t total = 0;
+    for (const auto *term : terms)
+      total += term->n_blocks();
+    Base::Progress progress(log, "Assembly", total);
+    assembler.assemble(terms,
+                       displacement,
+                       tangent_matrix,
+                       [&](const std::size_t done) { progress.update(done); });
+    constraints.add_geometric_stiffness(out_of_balance, tangent_matrix);
+  }
+
+  template <int dim>
+  std::shared_ptr<const MatrixPart>
+  Equilibrium<dim>::assemble_part(const Terms  &terms,
+                                  const Vector &displacement)
+  {
+    if (!pattern_is_made)
+      assembler.make_pattern(terms, local_matrix);
+    pattern_is_made = !is_linear();
+    assemble_tangent(terms, displacement, local_matrix.matrix);
+    auto part = std::make_shared<const MatrixPart>(
+      matrix_part(local_matrix, is_symmetric()));
+    if (is_linear())
+      local_matrix.clear();
+    return part;
+  }
+
+  template <int dim>
+  void
+  Equilibrium<dim>::prepare_direct_solver(const Vector &displacement)
+  {
+    auto *memory = is_linear() ? parameters.memory.get() : nullptr;
+
+    MatrixParts parts;
+    {
+      const auto timer = timing.scope("assembly");
+      auto       terms = tangent_terms();
+      if (const auto elements = memory ? problem.elements() : nullptr)
+        {
+          if (memory->elements != elements)
+            memory->part_of_elements =
+              assemble_part({elements.get()}, displacement);
+          memory->elements = elements;
+          parts.push_back(memory->part_of_elements);
+          terms.erase(std::find(terms.begin(), terms.end(), elements.get()));
+        }
+      parts.push_back(assemble_part(terms, displacement));
+    }
+    const auto timer = timing.scope("linear_solver");
+    linear_solver.reset();
+    linear_solver = make_direct_solver(std::move(parts),
+                                       problem.partition().owned_dofs(),
+                                       problem.partition().communicator(),
+                                       memory);
+  }
+
+  template <int dim>
   void
   Equilibrium<dim>::prepare_linear_solver(const Vector &displacement)
   {
     if (linear_solver && is_linear())
       return;
-    auto terms =
-      solver_choice.matrix_free ? problem.assembled_terms() : problem.terms();
-    if (follower.acts())
-      terms.push_back(&follower);
+    if (solver_choice.direct)
+      {
+        prepare_direct_solver(displacement);
+        return;
+      }
     const std::vector<const Fem::Contribution<dim> *> full_elements = {
       &problem.full_elements()};
     {
-      const auto  timer = timing.scope("assembly");
-      std::size_t total = 0;
-      for (const auto *term : terms)
-        total += term->n_blocks();
-      Base::Progress progress(log, "Assembly", total);
+      const auto timer = timing.scope("assembly");
       if (!pattern_is_made)
         {
-          assembler.make_pattern(terms, matrix);
+          assembler.make_pattern(tangent_terms(), matrix);
           if (solver_choice.matrix_free)
             assembler.make_pattern(full_elements, preconditioner_matrix);
           pattern_is_made = true;
         }
-      assembler.assemble(
-        terms,
-        displacement,
-        matrix,
-        [&](const std::size_t done) { progress.update(done); });
+      assemble_tangent(tangent_terms(), displacement, matrix);
       if (solver_choice.matrix_free)
         assembler.assemble(full_elements, displacement, preconditioner_matrix);
-      constraints.add_geometric_stiffness(out_of_balance, matrix);
     }
     const auto timer = timing.scope("linear_solver");
     linear_solver.reset();
-    if (solver_choice.direct)
-      {
-        linear_solver = make_direct_solver(matrix);
-        return;
-      }
     tangent = std::make_unique<TangentOperator<dim>>(
       matrix,
       solver_choice.matrix_free ? problem.family_terms()

@@ -4,7 +4,6 @@
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_gmres.h>
 #include <deal.II/lac/trilinos_precondition.h>
-#include <deal.II/lac/trilinos_solver.h>
 
 #include <Epetra_MultiVector.h>
 #include <Teuchos_ParameterList.hpp>
@@ -63,60 +62,17 @@ namespace Perimorph::Solvers
     return choice;
   }
 
+  void
+  check_finite(const Vector &x)
+  {
+    if (!std::isfinite(x.l2_norm()))
+      throw Base::SolveError(
+        "the linear solve gave values that are not finite: "
+        "the tangent is singular");
+  }
+
   namespace
   {
-    void
-    check_finite(const Vector &x)
-    {
-      if (!std::isfinite(x.l2_norm()))
-        throw Base::SolveError(
-          "the linear solve gave values that are not finite: "
-          "the tangent is singular");
-    }
-
-    class DirectSolver : public LinearSolver
-    {
-    public:
-      explicit DirectSolver(const Matrix &matrix)
-        : control(1, 0.)
-        , solver(control,
-                 dealii::TrilinosWrappers::SolverDirect::AdditionalData(
-                   false,
-                   "Amesos_Mumps"))
-      {
-        try
-          {
-            solver.initialize(matrix);
-          }
-        catch (const dealii::ExceptionBase &)
-          {
-            throw Base::SolveError(
-              "the factorisation of the tangent failed: it is singular, so "
-              "some "
-              "part of the body is not held or carries no stiffness");
-          }
-      }
-
-      unsigned int
-      solve(Vector &x, const Vector &b) override
-      {
-        try
-          {
-            solver.solve(x, b);
-          }
-        catch (const dealii::ExceptionBase &)
-          {
-            throw Base::SolveError("the direct solver failed");
-          }
-        check_finite(x);
-        return 1;
-      }
-
-    private:
-      dealii::SolverControl                  control;
-      dealii::TrilinosWrappers::SolverDirect solver;
-    };
-
     struct Operator
     {
       std::function<void(Vector &, const Vector &)> apply;
@@ -250,12 +206,6 @@ namespace Perimorph::Solvers
       dealii::TrilinosWrappers::PreconditionAMG preconditioner;
     };
   } // namespace
-
-  std::unique_ptr<LinearSolver>
-  make_direct_solver(const Matrix &matrix)
-  {
-    return std::make_unique<DirectSolver>(matrix);
-  }
 
   template <int dim>
   std::unique_ptr<LinearSolver>

@@ -9,6 +9,47 @@
 
 namespace Perimorph::Solvers
 {
+  namespace
+  {
+    template <int dim>
+    dealii::IndexSet
+    relevant_nodes(const Fem::NodePartition<dim> &partition)
+    {
+      dealii::IndexSet relevant(partition.owned_dofs().size() / dim);
+      for (unsigned int n = 0; n < partition.n_local(); ++n)
+        relevant.add_index(partition.global(n));
+      relevant.compress();
+      return relevant;
+    }
+
+    /// The graph of unknowns from that of nodes, which is a factor dim^2
+    /// smaller.
+    template <int dim>
+    dealii::DynamicSparsityPattern
+    unknowns_of(const dealii::DynamicSparsityPattern &graph,
+                const dealii::IndexSet               &nodes,
+                const dealii::IndexSet               &rows)
+    {
+      dealii::DynamicSparsityPattern               pattern(dim * graph.n_rows(),
+                                             dim * graph.n_rows(),
+                                             rows);
+      std::vector<dealii::types::global_dof_index> columns;
+      for (const auto n : nodes)
+        {
+          columns.clear();
+          for (auto entry = graph.begin(n); entry != graph.end(n); ++entry)
+            for (int d = 0; d < dim; ++d)
+              columns.push_back(dim * entry->column() + d);
+          for (int d = 0; d < dim; ++d)
+            pattern.add_entries(dim * n + d,
+                                columns.begin(),
+                                columns.end(),
+                                true);
+        }
+      return pattern;
+    }
+  } // namespace
+
   template <int dim>
   TangentAssembler<dim>::TangentAssembler(
     const Fem::NodePartition<dim>           &partition,
@@ -18,20 +59,11 @@ namespace Perimorph::Solvers
   {}
 
   template <int dim>
-  void
-  TangentAssembler<dim>::make_pattern(const Terms &terms, Matrix &matrix) const
+  dealii::DynamicSparsityPattern
+  TangentAssembler<dim>::node_graph(const Terms &terms) const
   {
-    // The graph of nodes is a factor dim^2 smaller than that of the unknowns.
-    const unsigned int n_nodes = partition.owned_dofs().size() / dim;
-    dealii::IndexSet   owned(n_nodes), relevant(n_nodes);
-    for (unsigned int n = 0; n < partition.n_local(); ++n)
-      {
-        relevant.add_index(partition.global(n));
-        if (n < partition.n_owned())
-          owned.add_index(partition.global(n));
-      }
-    owned.compress();
-    relevant.compress();
+    const unsigned int n_nodes  = partition.owned_dofs().size() / dim;
+    const auto         relevant = relevant_nodes(partition);
     // Equations of dependent nodes go to the nodes they depend on.
     std::map<unsigned int, std::set<unsigned int>> masters;
     for (const auto &line : constraints.get_lines())
@@ -61,44 +93,92 @@ namespace Perimorph::Solvers
           for (const auto row : global)
             graph.add_entries(row, global.begin(), global.end(), true);
         }
-    for (const auto n : owned)
-      graph.add(n, n);
+    // Unknowns that dependent ones share.
+    for (const auto &line : constraints.get_lines())
+      for (const auto &row : line.entries)
+        if (relevant.is_element(row.first / dim))
+          for (const auto &column : line.entries)
+            graph.add(row.first / dim, column.first / dim);
+    for (unsigned int n = 0; n < partition.n_owned(); ++n)
+      graph.add(partition.global(n), partition.global(n));
+    return graph;
+  }
+
+  template <int dim>
+  void
+  TangentAssembler<dim>::make_pattern(const Terms &terms, Matrix &matrix) const
+  {
+    auto             graph = node_graph(terms);
+    dealii::IndexSet owned(graph.n_rows());
+    for (unsigned int n = 0; n < partition.n_owned(); ++n)
+      owned.add_index(partition.global(n));
+    owned.compress();
     if (dealii::Utilities::MPI::n_mpi_processes(partition.communicator()) > 1)
       dealii::SparsityTools::distribute_sparsity_pattern(
         graph,
         owned,
         partition.communicator(),
-        relevant);
-
-    dealii::DynamicSparsityPattern               pattern(dim * n_nodes,
-                                           dim * n_nodes,
-                                           partition.owned_dofs());
-    std::vector<dealii::types::global_dof_index> columns;
-    for (const auto n : owned)
-      {
-        columns.clear();
-        for (auto entry = graph.begin(n); entry != graph.end(n); ++entry)
-          for (int d = 0; d < dim; ++d)
-            columns.push_back(dim * entry->column() + d);
-        for (int d = 0; d < dim; ++d)
-          pattern.add_entries(dim * n + d,
-                              columns.begin(),
-                              columns.end(),
-                              true);
-      }
+        relevant_nodes(partition));
     matrix.reinit(partition.owned_dofs(),
                   partition.owned_dofs(),
-                  pattern,
+                  unknowns_of<dim>(graph, owned, partition.owned_dofs()),
                   partition.communicator(),
                   false);
   }
 
   template <int dim>
   void
+  TangentAssembler<dim>::make_pattern(const Terms &terms,
+                                      LocalMatrix &matrix) const
+  {
+    const auto graph = node_graph(terms);
+    matrix.matrix.clear();
+    matrix.pattern.copy_from(
+      unknowns_of<dim>(graph,
+                       relevant_nodes(partition),
+                       dealii::complete_index_set(dim * graph.n_rows())));
+    matrix.matrix.reinit(matrix.pattern);
+  }
+
+  MatrixPart
+  matrix_part(const LocalMatrix &local, const bool symmetric)
+  {
+    MatrixPart part;
+    part.n         = local.matrix.m();
+    part.symmetric = symmetric;
+    part.row_start.reserve(part.n + 1);
+    part.columns.reserve(local.matrix.n_nonzero_elements());
+    part.values.reserve(local.matrix.n_nonzero_elements());
+    const auto add = [&](const unsigned int column, const double value) {
+      if (value == 0.)
+        return;
+      part.columns.push_back(column);
+      part.values.push_back(value);
+    };
+    for (unsigned int row = 0; row < part.n; ++row)
+      {
+        // The diagonal comes first in the matrix, in its place in the part.
+        const double diagonal = local.matrix.diag_element(row);
+        auto         entry    = local.matrix.begin(row);
+        const auto   end      = local.matrix.end(row);
+        for (++entry; entry != end && entry->column() < row; ++entry)
+          add(entry->column(), entry->value());
+        add(row, diagonal);
+        if (!symmetric)
+          for (; entry != end; ++entry)
+            add(entry->column(), entry->value());
+        part.row_start.push_back(part.columns.size());
+      }
+    return part;
+  }
+
+  template <int dim>
+  template <typename AnyMatrix>
+  void
   TangentAssembler<dim>::assemble(
     const Terms                            &terms,
     const Vector                           &displacement,
-    Matrix                                 &matrix,
+    AnyMatrix                              &matrix,
     const std::function<void(std::size_t)> &progress) const
   {
     matrix = 0.;
@@ -183,6 +263,18 @@ namespace Perimorph::Solvers
 
   template class TangentAssembler<2>;
   template class TangentAssembler<3>;
+#define PERIMORPH_INSTANTIATE(dim, AnyMatrix)               \
+  template void TangentAssembler<dim>::assemble<AnyMatrix>( \
+    const Terms &,                                          \
+    const Vector &,                                         \
+    AnyMatrix &,                                            \
+    const std::function<void(std::size_t)> &) const;
+
+  PERIMORPH_INSTANTIATE(2, Matrix)
+  PERIMORPH_INSTANTIATE(3, Matrix)
+  PERIMORPH_INSTANTIATE(2, dealii::SparseMatrix<double>)
+  PERIMORPH_INSTANTIATE(3, dealii::SparseMatrix<double>)
+#undef PERIMORPH_INSTANTIATE
   template class TangentOperator<2>;
   template class TangentOperator<3>;
 } // namespace Perimorph::Solvers

@@ -157,5 +157,15 @@ namespace Perimorph::Application
     /// CrackTip::root of each name, in 2D.
     std::vector<std::array<unsigned int, 2>> tip_roots;
     std::vector<Fracture::MirrorPlane<dim>>  planes;
+
+    /// The last tip_quantities() and what they were evaluated for.
+    struct Tips
+    {
+      std::size_t                          n_facets = 0;
+      std::vector<double>                  alpha;
+      std::vector<dealii::Tensor<1, dim>>  displacement;
+      std::vector<Fracture::TipQuantities> quantities;
+    };
+    mutable Tips last_tips;
   };
 } // namespace Perimorph::Application

@@ -116,9 +116,12 @@ namespace Perimorph::Application
     Method
     set_up(Mesh::Mode mode);
     Method
-    make_method(const Mesh::RegionMap                            &region,
-                const Bonds::CrackSet<dim>                       &cracks,
-                std::shared_ptr<const Coupling::IntactBonds<dim>> intact = {});
+    make_method(const Mesh::RegionMap      &region,
+                const Bonds::CrackSet<dim> &cracks,
+                Coupling::SharedParts<dim>  shared = {});
+    /// What direct solvers share while cracks grow or bonds break.
+    std::shared_ptr<Solvers::FactorMemory>
+    make_factor_memory() const;
     void
     report_set_up(const Method &method);
     /// A load step or arc step that was accepted.
@@ -353,6 +356,7 @@ namespace Perimorph::Application
     std::unique_ptr<Output::Results>            result;
     std::unique_ptr<Output::FieldOutput<dim>>   fields;
     std::vector<std::string>                    files;
+    std::shared_ptr<Solvers::FactorMemory>      factor_memory; ///< of growth
     bool                                        point_supports_checked = false;
 
     // Growth of cracks.

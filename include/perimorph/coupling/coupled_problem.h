@@ -44,7 +44,7 @@ namespace Perimorph::Coupling
     /// least-squares sense only, the shear modulus.
     std::optional<StabilizationScale> scale      = std::nullopt;
     CrackRule                         crack_rule = CrackRule::consistent;
-    /// Whether CoupledProblem::intact() is kept.
+    /// Whether SharedParts::intact is kept.
     bool bonds_may_break = false;
   };
 
@@ -77,6 +77,22 @@ namespace Perimorph::Coupling
     CrackReport                  cracked;
   };
 
+  /// What a problem of the same body, with other cracks or broken bonds, may
+  /// share with an earlier one.
+  template <int dim>
+  struct SharedParts
+  {
+    /// Of a problem that differs in broken bonds only; none if bonds cannot
+    /// break.
+    std::shared_ptr<const IntactBonds<dim>>        intact;
+    std::shared_ptr<const Fem::NodePartition<dim>> partition;
+    std::shared_ptr<Fem::ElasticCells<dim>>        all_cells;
+    /// The elements with their weights, where these are the same.
+    std::shared_ptr<Fem::ElasticCells<dim>> elements;
+    std::vector<double>                     element_weight;
+    std::vector<bool>                       replaced;
+  };
+
   /// The internal energy of the coupled body as a list of contributions. What a
   /// scene does not have is not in the list.
   template <int dim>
@@ -90,28 +106,29 @@ namespace Perimorph::Coupling
     /// @param more_nodes  nodes that every rank must see (constraints)
     /// @param cracks      only needed by the constructor
     /// @param broken      the same
-    /// @param intact      of a problem that differs in broken bonds only
-    CoupledProblem(const Mesh::DistributedMesh<dim>       &mesh,
-                   const Mesh::RegionMap                  &region,
-                   const BodyMaterials<dim>               &materials,
-                   const CouplingParameters               &parameters,
-                   const Progress                         &progress   = {},
-                   std::vector<unsigned int>               more_nodes = {},
-                   const Bonds::CrackSet<dim>             &cracks     = {},
-                   const Bonds::BrokenBonds               &broken     = {},
-                   std::shared_ptr<const IntactBonds<dim>> intact     = {});
+    /// @param shared      what an earlier problem knows
+    CoupledProblem(const Mesh::DistributedMesh<dim> &mesh,
+                   const Mesh::RegionMap            &region,
+                   const BodyMaterials<dim>         &materials,
+                   const CouplingParameters         &parameters,
+                   const Progress                   &progress   = {},
+                   std::vector<unsigned int>         more_nodes = {},
+                   const Bonds::CrackSet<dim>       &cracks     = {},
+                   const Bonds::BrokenBonds         &broken     = {},
+                   SharedParts<dim>                  shared     = {});
 
-    /// None if bonds cannot break.
-    std::shared_ptr<const IntactBonds<dim>>
-    intact() const
+    /// For a problem with the same mesh, materials and parameters; without
+    /// `intact` if more than broken bonds differ.
+    const SharedParts<dim> &
+    shared() const
     {
-      return intact_bonds;
+      return parts_to_share;
     }
 
     const Fem::NodePartition<dim> &
     partition() const
     {
-      return *node_partition;
+      return *parts_to_share.partition;
     }
 
     /// All contributions, or only those that may be applied without a matrix
@@ -128,7 +145,16 @@ namespace Perimorph::Coupling
     const Fem::ElasticCells<dim> &
     full_elements() const
     {
-      return *all_cells;
+      return *parts_to_share.all_cells;
+    }
+
+    /// What stays the same while families change; none if no element works.
+    std::shared_ptr<const Term>
+    elements() const
+    {
+      return parts_to_share.elements && parts_to_share.elements->n_blocks() > 0
+               ? parts_to_share.elements
+               : nullptr;
     }
 
     bool
@@ -219,11 +245,13 @@ namespace Perimorph::Coupling
     /// peridynamic term.
     /// @param replaced  cells that something else stands in for, or empty
     void
-    add_terms(const Mesh::RegionMap     &region,
-              Scheme                     scheme,
-              const std::vector<double> &element_weight,
-              const std::vector<bool>   &replaced,
-              std::unique_ptr<Term>      particles);
+    add_terms(const Mesh::RegionMap &region,
+              Scheme                 scheme,
+              std::vector<double>    element_weight,
+              std::vector<bool>      replaced,
+              std::unique_ptr<Term>  particles);
+    void
+    make_elements(std::vector<double> weight, std::vector<bool> skip);
     void
     make_correspondence(const Mesh::RegionMap      &region,
                         const CouplingParameters   &parameters,
@@ -243,16 +271,14 @@ namespace Perimorph::Coupling
                const Bonds::BrokenBonds   &broken,
                const Progress             &progress);
 
-    const Mesh::DistributedMesh<dim>        &mesh;
-    const BodyMaterials<dim>                &materials;
-    std::vector<unsigned int>                more_nodes;
-    std::unique_ptr<Fem::NodePartition<dim>> node_partition;
-    std::unique_ptr<Fem::ElasticCells<dim>>  all_cells;
-    std::vector<std::unique_ptr<Term>>       contributions;
-    std::vector<const Term *>                families;
-    BondSet                                  bond_set;
-    std::shared_ptr<const IntactBonds<dim>>  intact_bonds;
-    Counts                                   local_counts;
-    CrackReport                              cracked;
+    const Mesh::DistributedMesh<dim>  &mesh;
+    const BodyMaterials<dim>          &materials;
+    std::vector<unsigned int>          more_nodes;
+    SharedParts<dim>                   parts_to_share;
+    std::vector<std::shared_ptr<Term>> contributions;
+    std::vector<const Term *>          families;
+    BondSet                            bond_set;
+    Counts                             local_counts;
+    CrackReport                        cracked;
   };
 } // namespace Perimorph::Coupling

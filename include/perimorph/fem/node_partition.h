@@ -47,6 +47,10 @@ namespace Perimorph::Fem
                : ghosts.nth_index_in_set(local_node - n_owned());
     }
 
+    /// Whether it has room for these nodes of the mesh; of this rank.
+    bool
+    sees(const std::vector<unsigned int> &nodes) const;
+
     unsigned int
     n_owned() const
     {

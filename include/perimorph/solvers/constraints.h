@@ -89,8 +89,9 @@ namespace Perimorph::Solvers
     /// under the forces on them.
     /// @param force  external minus internal force, not condensed, ghosts up to
     ///               date
+    template <typename AnyMatrix>
     void
-    add_geometric_stiffness(const Vector &force, Matrix &matrix) const;
+    add_geometric_stiffness(const Vector &force, AnyMatrix &matrix) const;
 
   private:
     static constexpr unsigned int n_motions = dim * (dim + 1) / 2;

@@ -5,7 +5,7 @@
 #include <perimorph/fem/loads.h>
 #include <perimorph/fem/supports.h>
 #include <perimorph/solvers/constraints.h>
-#include <perimorph/solvers/linear_solver.h>
+#include <perimorph/solvers/direct_solver.h>
 #include <perimorph/solvers/newton.h>
 #include <perimorph/solvers/tangent.h>
 
@@ -26,6 +26,9 @@ namespace Perimorph::Solvers
     TangentKind      tangent          = TangentKind::automatic;
     double           linear_tolerance = 1e-12;
     NewtonParameters newton;
+    /// What problems that differ in few equations share, of direct solvers of
+    /// linear problems; may be none.
+    std::shared_ptr<FactorMemory> memory;
   };
 
   /// Where a path of equilibrium is followed by its arc length.
@@ -126,6 +129,8 @@ namespace Perimorph::Solvers
     }
 
   private:
+    using Terms = typename TangentAssembler<dim>::Terms;
+
     void
     evaluate_loads(double time);
     /// Residual of the free equations at a state into rhs; also what the
@@ -139,6 +144,17 @@ namespace Perimorph::Solvers
                     Vector       &result);
     void
     prepare_linear_solver(const Vector &displacement);
+    void
+    prepare_direct_solver(const Vector &displacement);
+    Terms
+    tangent_terms() const;
+    template <typename AnyMatrix>
+    void
+    assemble_tangent(const Terms  &terms,
+                     const Vector &displacement,
+                     AnyMatrix    &tangent_matrix);
+    std::shared_ptr<const MatrixPart>
+    assemble_part(const Terms &terms, const Vector &displacement);
     /// Newton's method whose failures of any kind end up in the record and
     /// leave displacement and constraints as they were.
     NewtonRecord
@@ -155,6 +171,7 @@ namespace Perimorph::Solvers
     TangentAssembler<dim>                 assembler;
     Matrix                                matrix;
     Matrix                                preconditioner_matrix;
+    LocalMatrix                           local_matrix; ///< of a direct solver
     std::unique_ptr<TangentOperator<dim>> tangent;
     std::unique_ptr<LinearSolver>         linear_solver;
     bool                                  pattern_is_made = false;

@@ -67,10 +67,10 @@ namespace Perimorph::Solvers
     solve(Vector &x, const Vector &b) = 0;
   };
 
-  /// Sparse LU factorisation, computed once, by MUMPS through Trilinos' Amesos.
-  /// @throws Base::SolveError  a singular matrix
-  std::unique_ptr<LinearSolver>
-  make_direct_solver(const Matrix &matrix);
+  /// Collective.
+  /// @throws Base::SolveError  a solution that is not finite
+  void
+  check_finite(const Vector &x);
 
   /// Conjugate gradients (GMRES if not symmetric) with smoothed-aggregation
   /// multigrid, rigid-body near-null space and Chebyshev smoother.

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <perimorph/fem/contribution.h>
+#include <perimorph/solvers/sparse_factors.h>
 
 #include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include <functional>
@@ -13,6 +16,25 @@ namespace Perimorph::Solvers
 {
   using Fem::Vector;
   using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+
+  /// What the blocks of this rank add to the rows of any rank: no message is
+  /// needed to assemble it.
+  struct LocalMatrix
+  {
+    dealii::SparsityPattern      pattern;
+    dealii::SparseMatrix<double> matrix;
+
+    void
+    clear()
+    {
+      matrix.clear();
+      pattern.reinit(0, 0, 0);
+    }
+  };
+
+  /// Its entries other than zero, for a direct solver.
+  MatrixPart
+  matrix_part(const LocalMatrix &matrix, bool symmetric);
 
   /// Assembles the tangents of contributions into one sparse matrix, with the
   /// rows and columns of constrained degrees of freedom eliminated (their
@@ -29,15 +51,23 @@ namespace Perimorph::Solvers
     /// Gives the matrix the sparsity pattern of the terms.
     void
     make_pattern(const Terms &terms, Matrix &matrix) const;
+    void
+    make_pattern(const Terms &terms, LocalMatrix &matrix) const;
 
-    /// Fills the matrix (pattern made before) at a displacement.
+    /// Fills the matrix (pattern made before) at a displacement; AnyMatrix:
+    /// Matrix or that of a LocalMatrix.
+    template <typename AnyMatrix>
     void
     assemble(const Terms                            &terms,
              const Vector                           &displacement,
-             Matrix                                 &matrix,
+             AnyMatrix                              &matrix,
              const std::function<void(std::size_t)> &progress = {}) const;
 
   private:
+    /// Which nodes the blocks of this rank couple.
+    dealii::DynamicSparsityPattern
+    node_graph(const Terms &terms) const;
+
     const Fem::NodePartition<dim>           &partition;
     const dealii::AffineConstraints<double> &constraints;
   };
