@@ -49,7 +49,8 @@ namespace Perimorph::Application
     for (unsigned int n = 0; n < method.displacement.locally_owned_size(); ++n)
       method.displacement.local_element(n) =
         start.displacement.local_element(n);
-    method.time       = start.time;
+    method.time = start.time;
+    method.equilibrium->remember_force(start.equilibrium->largest_force_met());
     const auto record = method.equilibrium->solve(start.time,
                                                   method.displacement,
                                                   [](const auto &) {});

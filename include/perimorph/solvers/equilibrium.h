@@ -9,6 +9,7 @@
 #include <perimorph/solvers/newton.h>
 #include <perimorph/solvers/tangent.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 
@@ -126,6 +127,14 @@ namespace Perimorph::Solvers
     largest_force_met() const
     {
       return largest_force;
+    }
+
+    /// A force that an earlier problem of the same body met: residuals count
+    /// relative to it too, so that a body without load is in equilibrium.
+    void
+    remember_force(const double force)
+    {
+      largest_force = std::max(largest_force, force);
     }
 
   private:
