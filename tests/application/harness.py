@@ -5,6 +5,7 @@ Standard library only. Every test file holds tables of cases, calls
 """
 
 import argparse
+import concurrent.futures
 import json
 import math
 import os
@@ -54,8 +55,9 @@ def parse_arguments(description, **groups):
 class Outcome:
     """Exit code, texts and results of one run."""
 
-    def __init__(self, code, stdout, stderr, folder):
+    def __init__(self, code, stdout, stderr, folder, seconds=None):
         self.code = code
+        self.seconds = seconds
         self.stdout = stdout
         self.stderr = stderr
         self.folder = folder
@@ -83,13 +85,15 @@ class Runner:
         self.mpirun = arguments.mpirun
         self.environment = environment()
         self.temporary = tempfile.TemporaryDirectory(prefix="perimorph_test_")
-        self.n_runs = 0
 
     def new_folder(self):
-        self.n_runs += 1
-        folder = os.path.join(self.temporary.name, "run%03d" % self.n_runs)
-        os.mkdir(folder)
-        return folder
+        return tempfile.mkdtemp(prefix="run", dir=self.temporary.name)
+
+    def together(self, function, items, n_together=2):
+        """function(item) of all items, in their order. Two runs at a time:
+        the start of a small one is mostly waiting for MPI."""
+        with concurrent.futures.ThreadPoolExecutor(n_together) as pool:
+            yield from pool.map(function, items)
 
     def run(self, words, ranks=1, folder=None, output="out", timeout=240):
         """Runs with these arguments; folder is where we start, and the
@@ -101,6 +105,7 @@ class Runner:
                 self.mpirun, "--quiet", "--oversubscribe", "-np",
                 str(ranks)
             ] + command
+        started = time.time()
         done = subprocess.run(
             command,
             cwd=folder,
@@ -112,7 +117,8 @@ class Runner:
         return Outcome(done.returncode,
                        done.stdout.decode(errors="replace"),
                        done.stderr.decode(errors="replace"),
-                       os.path.join(folder, output))
+                       os.path.join(folder, output),
+                       time.time() - started)
 
     def run_case(self, file, overrides=(), ranks=1, options=()):
         """Runs a shipped parameter file; overrides: "Section/entry=value"."""
@@ -144,6 +150,8 @@ class Failures:
 
     def end(self, outcome=None):
         seconds = time.time() - self.started
+        if outcome is not None and outcome.seconds is not None:
+            seconds = outcome.seconds
         word = "FAILED" if self.messages else "ok"
         print("%-6s %s (%.1f s)" % (word, self.name, seconds))
         for message in self.messages:

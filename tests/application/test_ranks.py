@@ -190,12 +190,16 @@ def main():
     arguments = parse_arguments(__doc__)
     runner = Runner(arguments)
     failures = Failures()
-    for name, file, overrides, ghost in CASES:
-        if arguments.only and not re.search(arguments.only, name):
-            continue
+    cases = [case for case in CASES
+             if not arguments.only or re.search(arguments.only, case[0])]
+    outcomes = runner.together(
+        lambda run: runner.run_case(run[0], run[1] + ["Output/fields=false"],
+                                    run[2]),
+        [(file, overrides, n) for _, file, overrides, _ in cases
+         for n in (1, 2, 3)])
+    for name, _, _, ghost in cases:
         failures.begin(name)
-        overrides = overrides + ["Output/fields=false"]
-        runs = [runner.run_case(file, overrides, n) for n in (1, 2, 3)]
+        runs = [next(outcomes) for _ in range(3)]
         done = [
             failures.check(run.code == 0, "exit code %d" % run.code)
             for run in runs
