@@ -42,6 +42,17 @@ namespace Perimorph::Application
                 facet[v] = mesh.points[face[some[v]]];
               facets.push_back(facet);
             }
+      // Both faces of a slit may be in the group.
+      std::set<std::set<std::vector<double>>> known;
+      facets.erase(std::remove_if(facets.begin(),
+                                  facets.end(),
+                                  [&](const Facet<dim> &facet) {
+                                    std::set<std::vector<double>> corners;
+                                    for (const auto &corner : facet)
+                                      corners.insert(numbers_of(corner));
+                                    return !known.insert(corners).second;
+                                  }),
+                   facets.end());
       return facets;
     }
 

@@ -101,6 +101,43 @@ namespace Perimorph::Application
   } // namespace
 
   template <int dim>
+  std::vector<dealii::Point<dim>>
+  points_of_line(const Parameters::Polyline &line)
+  {
+    std::vector<dealii::Point<dim>> points;
+    for (const auto &numbers : line.points)
+      points.push_back(to_point<dim>(numbers));
+    return points;
+  }
+
+  template <int dim>
+  std::vector<Bonds::CrackFacet<dim>>
+  facets_of_line(const Parameters::Polyline            &line,
+                 const std::vector<dealii::Point<dim>> &points,
+                 const unsigned int                     crack)
+  {
+    std::vector<Bonds::CrackFacet<dim>> facets;
+    if constexpr (dim == 2)
+      for (unsigned int k = 0; k + 1 < points.size(); ++k)
+        facets.push_back({{{points[k], points[k + 1]}}, crack, 0});
+    else
+      {
+        for (unsigned int k = 1; k + 1 < points.size(); ++k)
+          facets.push_back({{{points[0], points[k], points[k + 1]}}, crack, 0});
+        for (const auto &numbers : line.triangles)
+          {
+            Bonds::CrackFacet<dim> facet;
+            for (int v = 0; v < dim; ++v)
+              for (int d = 0; d < dim; ++d)
+                facet.corners[v][d] = numbers[dim * v + d];
+            facet.crack = crack;
+            facets.push_back(facet);
+          }
+      }
+    return facets;
+  }
+
+  template <int dim>
   Bonds::CrackSet<dim>
   make_cracks(const Mesh::NodalMesh<dim>              &mesh,
               const std::vector<Parameters::Polyline> &lines,
@@ -109,9 +146,7 @@ namespace Perimorph::Application
     std::vector<Bonds::CrackFacet<dim>> facets;
     for (unsigned int crack = 0; crack < lines.size(); ++crack)
       {
-        std::vector<dealii::Point<dim>> points;
-        for (const auto &numbers : lines[crack].points)
-          points.push_back(to_point<dim>(numbers));
+        auto points = points_of_line<dim>(lines[crack]);
         if constexpr (dim == 2)
           {
             // A closed line has no ends.
@@ -132,25 +167,10 @@ namespace Perimorph::Application
                              points[n - 1],
                              n == 2 ? first : points[n - 2]);
               }
-            for (unsigned int k = 0; k + 1 < n; ++k)
-              facets.push_back({{{points[k], points[k + 1]}}, crack, 0});
           }
-        else
-          {
-            for (unsigned int k = 1; k + 1 < points.size(); ++k)
-              facets.push_back(
-                {{{points[0], points[k], points[k + 1]}}, crack, 0});
-            for (const auto &numbers : lines[crack].triangles)
-              {
-                Bonds::CrackFacet<dim> facet;
-                for (int v = 0; v < dim; ++v)
-                  for (int d = 0; d < dim; ++d)
-                    facet.corners[v][d] = numbers[dim * v + d];
-                facet.crack = crack;
-                facet.step  = 0;
-                facets.push_back(facet);
-              }
-          }
+        for (const auto &facet :
+             facets_of_line<dim>(lines[crack], points, crack))
+          facets.push_back(facet);
       }
     Bonds::CrackSet<dim>   cracks(facets);
     std::set<unsigned int> inside;
@@ -322,6 +342,12 @@ namespace Perimorph::Application
   }
 
 #define PERIMORPH_INSTANTIATE(dim)                                           \
+  template std::vector<dealii::Point<dim>> points_of_line<dim>(              \
+    const Parameters::Polyline &);                                           \
+  template std::vector<Bonds::CrackFacet<dim>> facets_of_line<dim>(          \
+    const Parameters::Polyline &,                                            \
+    const std::vector<dealii::Point<dim>> &,                                 \
+    unsigned int);                                                           \
   template Bonds::CrackSet<dim> make_cracks<dim>(                            \
     const Mesh::NodalMesh<dim> &,                                            \
     const std::vector<Parameters::Polyline> &,                               \

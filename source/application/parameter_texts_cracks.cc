@@ -14,15 +14,18 @@ namespace Perimorph::Application
   ParameterTexts::declare_cracks(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Cracks");
-    prm.add_parameter("pre-cracks",
-                      pre_cracks,
-                      "Cracks that are there from the start, not meshed: edge: "
-                      "0 0 to 0.5 0; bent: 1 0 to 1 0.2 to 1.1 0.3. In 3D the "
-                      "corners of flat convex polygons. 'edge: group NAME': "
-                      "the lines or triangles of a physical group of the mesh "
-                      "file. An end at the surface opens it. Peridynamics is "
-                      "placed around them.",
-                      Anything());
+    prm.add_parameter(
+      "pre-cracks",
+      pre_cracks,
+      "Cracks that are there from the start, not meshed: edge: "
+      "0 0 to 0.5 0; bent: 1 0 to 1 0.2 to 1.1 0.3. In 3D the "
+      "corners of flat convex polygons. 'edge: group NAME': "
+      "the lines or triangles of a physical group of the mesh "
+      "file. An end at the surface opens it. Peridynamics is "
+      "placed around them. With Mode = finite elements they cut "
+      "nothing and must lie on slits of the mesh, along nodes "
+      "that are double, the tips excepted.",
+      Anything());
     prm.add_parameter(
       "treatment",
       crack_treatment,

@@ -89,7 +89,7 @@ namespace Perimorph::Application
   {
     for (const auto &plane : supports.symmetry_planes())
       planes.push_back({plane.point, plane.normal, plane.nodes});
-    fit = Fracture::visible_fit(mesh.nodal(), cracks, planes);
+    fit = Fracture::visible_fit(mesh.nodal(), cracks, planes, has_slits());
     recovery =
       std::make_unique<Fracture::NodalStress<dim>>(*fit, materials.laws);
     probe = std::make_unique<Fracture::PointProbe<dim>>(*recovery);

@@ -95,6 +95,13 @@ namespace Perimorph::Application
   } // namespace
 
   template <int dim>
+  bool
+  PostProcessing<dim>::has_slits() const
+  {
+    return parameters.region.mode == Mesh::Mode::finite_elements;
+  }
+
+  template <int dim>
   void
   PostProcessing<dim>::name_crack_tips()
   {
@@ -105,13 +112,15 @@ namespace Perimorph::Application
                           std::to_string(++count[crack]));
     };
     if constexpr (dim == 2)
-      for (const auto &tip : Fracture::find_tips(mesh.nodal(), cracks))
+      for (const auto &tip :
+           Fracture::find_tips(mesh.nodal(), cracks, has_slits()))
         {
           add(tip.crack);
           tip_roots.push_back(tip.root);
         }
     else
-      for (const auto &front : Fracture::find_fronts(mesh.nodal(), cracks))
+      for (const auto &front :
+           Fracture::find_fronts(mesh.nodal(), cracks, has_slits()))
         add(front.crack);
   }
 
@@ -132,14 +141,16 @@ namespace Perimorph::Application
     const Peridynamics::FamilySet<dim> &families) const
   {
     const bool has_families =
-      parameters.coupling.model == Coupling::Model::correspondence &&
-      region.n_core > 0;
+      has_slits() ||
+      (parameters.coupling.model == Coupling::Model::correspondence &&
+       region.n_core > 0);
     return {{mesh.nodal(), materials.laws, state.displacement},
             cracks,
             region.alpha,
             region.horizon,
             has_families ? &families : nullptr,
-            planes};
+            planes,
+            has_slits()};
   }
 
   template <int dim>
@@ -161,7 +172,7 @@ namespace Perimorph::Application
             region.alpha,
             state.displacement,
             Fracture::tip_quantities(cracked_body(state, region, families),
-                                     Fracture::find_tips(mesh.nodal(), cracks),
+                                     Fracture::find_tips(mesh.nodal(), cracks, has_slits()),
                                      {},
                                      mesh.communicator())};
         return last.quantities;
@@ -199,7 +210,7 @@ namespace Perimorph::Application
         // Fronts do not grow.
         const auto fronts = Fracture::front_quantities(
           cracked_body(state, region, families),
-          Fracture::find_fronts(mesh.nodal(), cracks),
+          Fracture::find_fronts(mesh.nodal(), cracks, has_slits()),
           n_stations,
           {},
           mesh.communicator());
@@ -223,6 +234,7 @@ namespace Perimorph::Application
   }
 
 #define PERIMORPH_INSTANTIATE(dim)                                           \
+  template bool PostProcessing<dim>::has_slits() const;                      \
   template void PostProcessing<dim>::name_crack_tips();                      \
   template void PostProcessing<dim>::add_crack_names(                        \
     std::vector<std::string> &) const;                                       \

@@ -37,17 +37,13 @@ namespace Perimorph::Application
                                               texts.advance_length,
                                               false,
                                               errors);
-    if (!pre_cracks.empty() && region.mode == Mesh::Mode::finite_elements)
-      errors.add_parameter("Cracks / pre-cracks",
-                           "cracks with Mode = finite elements",
-                           "coupled, peridynamics",
-                           "Elements cannot be cut; a crack in the mesh needs "
-                           "no entry here.");
-    if (!pre_cracks.empty() && compare_with_finite_elements)
+    if (!pre_cracks.empty() && compare_with_finite_elements &&
+        region.mode != Mesh::Mode::finite_elements)
       errors.add_parameter("Quantities / compare with finite elements",
                            "true with cracks",
                            "false",
-                           "Elements cannot be cut.");
+                           "Elements cannot be cut; compare with a run of its "
+                           "own whose mesh has a slit.");
     if (!pre_cracks.empty() &&
         coupling.scheme == Coupling::Scheme::force_blending)
       errors.add_parameter("Peridynamics / coupling",
@@ -87,7 +83,7 @@ namespace Perimorph::Application
       errors.add_parameter("Cracks / advance length",
                            "'" + texts.advance_length + "'",
                            "a length > 0");
-    if (pre_cracks.empty() && region.mode == Mesh::Mode::finite_elements)
+    if (region.mode == Mesh::Mode::finite_elements)
       errors.add_parameter("Cracks / growth",
                            "'" + texts.crack_growth +
                              "' with Mode = finite elements",

@@ -1,5 +1,6 @@
 #include <perimorph/application/crack_groups.h>
 #include <perimorph/application/crack_setup.h>
+#include <perimorph/application/meshed_cracks.h>
 #include <perimorph/application/simulation.h>
 #include <perimorph/application/stability_advice.h>
 #include <perimorph/base/log.h>
@@ -108,6 +109,11 @@ namespace Perimorph::Application
   {
     if (parameters.pre_cracks.empty())
       return;
+    if (parameters.region.mode == Mesh::Mode::finite_elements)
+      {
+        cracks = make_meshed_cracks(mesh->nodal(), parameters.pre_cracks);
+        return;
+      }
     cracks = make_cracks(mesh->nodal(),
                          parameters.pre_cracks,
                          parameters.region.horizon_ratio);
@@ -119,6 +125,8 @@ namespace Perimorph::Application
   void
   Simulation<dim>::check_cracks() const
   {
+    if (parameters.region.mode == Mesh::Mode::finite_elements)
+      return;
     std::vector<std::string> names;
     for (const auto &line : parameters.pre_cracks)
       names.push_back(line.name);
@@ -129,6 +137,8 @@ namespace Perimorph::Application
   void
   Simulation<dim>::check_crack_mouths()
   {
+    if (parameters.region.mode == Mesh::Mode::finite_elements)
+      return;
     const auto &nodal = mesh->nodal();
     for (const auto &mouth : find_mouths(nodal, cracks))
       {

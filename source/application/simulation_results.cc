@@ -114,7 +114,9 @@ namespace Perimorph::Application
                                      broken);
         nodal_fields.add("damage", damage);
       }
-    if (!cracks.empty() && method.region.n_core > 0)
+    if (!cracks.empty() &&
+        (method.region.n_core > 0 ||
+         parameters.region.mode == Mesh::Mode::finite_elements))
       {
         std::vector<std::array<dealii::Point<dim>, dim>> pieces;
         std::vector<double>                              numbers, steps;

@@ -1,3 +1,4 @@
+#include <perimorph/fracture/crack_slits.h>
 #include <perimorph/fracture/crack_tips.h>
 #include <perimorph/mesh/feature_distance.h>
 
@@ -31,6 +32,7 @@ namespace Perimorph::Fracture
     /// other triangle.
     std::vector<Edge>
     free_edges(const Mesh::NodalMesh<3>   &mesh,
+               const Surface<3>           &surface,
                const Bonds::CrackSet<3>   &cracks,
                const unsigned int          crack,
                const dealii::Tensor<1, 3> &normal)
@@ -53,7 +55,7 @@ namespace Perimorph::Fracture
                          Mesh::closest_on_triangle(middle, t[0], t[1], t[2])) >
                          1e-6 * a.distance(b);
               }
-            if (!free || !is_inside(mesh, middle))
+            if (!free || !is_inside(mesh, surface, middle))
               continue;
             const bool along =
               cross_product_3d(normal, b - a) * (middle - c) > 0.;
@@ -175,8 +177,12 @@ namespace Perimorph::Fracture
   }
 
   std::vector<CrackFront>
-  find_fronts(const Mesh::NodalMesh<3> &mesh, const Bonds::CrackSet<3> &cracks)
+  find_fronts(const Mesh::NodalMesh<3> &mesh,
+              const Bonds::CrackSet<3> &cracks,
+              const bool                meshed)
   {
+    const auto surface =
+      meshed ? outer_surface(mesh, cracks) : mesh.boundary_faces;
     std::map<unsigned int, dealii::Tensor<1, 3>> normals;
     for (const auto &facet : cracks.facets())
       normals.emplace(facet.crack, facet.normal());
@@ -184,7 +190,7 @@ namespace Perimorph::Fracture
     std::vector<CrackFront> fronts;
     for (const auto &[crack, normal] : normals)
       {
-        auto edges = free_edges(mesh, cracks, crack, normal);
+        auto edges = free_edges(mesh, surface, cracks, crack, normal);
         // Open chains are taken from their beginning, then the closed ones.
         for (const bool open : {true, false})
           for (unsigned int e = 0; e < edges.size(); ++e)
@@ -205,7 +211,7 @@ namespace Perimorph::Fracture
                                           .at(0.5 * (front.arc_length[k] +
                                                      front.arc_length[k + 1]))
                                           .frame.origin;
-                    double smallest = boundary_distance(mesh, middle);
+                    double smallest = boundary_distance(mesh, surface, middle);
                     for (const auto &facet : cracks.facets())
                       if (facet.crack != crack)
                         smallest =

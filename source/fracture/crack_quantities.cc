@@ -79,7 +79,8 @@ namespace Perimorph::Fracture
                  const MPI_Comm               communicator)
   {
     const auto &mesh = cracked.body.mesh;
-    const auto  fit  = visible_fit(mesh, cracked.cracks, cracked.planes);
+    const auto  fit =
+      visible_fit(mesh, cracked.cracks, cracked.planes, cracked.meshed);
     std::vector<TipQuantities> all;
     for (const auto &tip : tips)
       {
@@ -138,7 +139,8 @@ namespace Perimorph::Fracture
   {
     const double pi   = std::acos(-1.);
     const auto  &mesh = cracked.body.mesh;
-    const auto   fit  = visible_fit(mesh, cracked.cracks, cracked.planes);
+    const auto   fit =
+      visible_fit(mesh, cracked.cracks, cracked.planes, cracked.meshed);
     std::vector<FrontQuantities> all;
     for (const auto &front : fronts)
       {

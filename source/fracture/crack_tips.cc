@@ -1,3 +1,4 @@
+#include <perimorph/fracture/crack_slits.h>
 #include <perimorph/fracture/crack_tips.h>
 #include <perimorph/mesh/cell_geometry.h>
 #include <perimorph/mesh/feature_distance.h>
@@ -102,12 +103,14 @@ namespace Perimorph::Fracture
     /// that are not on it.
     double
     free_distance(const Mesh::NodalMesh<2>                &mesh,
+                  const Surface<2>                        &surface,
                   const std::vector<Bonds::CrackFacet<2>> &facets,
                   CrackTip                                &tip)
     {
-      const auto chain    = follow_back(facets, tip);
-      double     smallest = std::min(boundary_distance(mesh, tip.frame.origin),
-                                 tip.path.back().distance(tip.frame.origin));
+      const auto chain = follow_back(facets, tip);
+      double     smallest =
+        std::min(boundary_distance(mesh, surface, tip.frame.origin),
+                 tip.path.back().distance(tip.frame.origin));
       for (unsigned int f = 0; f < facets.size(); ++f)
         if (std::find(chain.begin(), chain.end(), f) == chain.end())
           smallest = std::min(smallest, distance(facets[f], tip.frame.origin));
@@ -118,10 +121,11 @@ namespace Perimorph::Fracture
     /// the tip.
     double
     straight_distance(const Mesh::NodalMesh<2>                &mesh,
+                      const Surface<2>                        &surface,
                       const std::vector<Bonds::CrackFacet<2>> &facets,
                       const TipFrame<2>                       &tip)
     {
-      double smallest = boundary_distance(mesh, tip.origin);
+      double smallest = boundary_distance(mesh, surface, tip.origin);
       for (const auto &facet : facets)
         {
           bool aside = false;
@@ -142,10 +146,11 @@ namespace Perimorph::Fracture
   template <int dim>
   double
   boundary_distance(const Mesh::NodalMesh<dim> &mesh,
+                    const Surface<dim>         &surface,
                     const dealii::Point<dim>   &point)
   {
     double smallest = std::numeric_limits<double>::infinity();
-    for (const auto &face : mesh.boundary_faces)
+    for (const auto &face : surface)
       {
         const auto corner = [&](const unsigned int v) {
           return mesh.nodes[face.nodes[v]];
@@ -169,7 +174,9 @@ namespace Perimorph::Fracture
 
   template <int dim>
   bool
-  is_inside(const Mesh::NodalMesh<dim> &mesh, const dealii::Point<dim> &point)
+  is_inside(const Mesh::NodalMesh<dim> &mesh,
+            const Surface<dim>         &surface,
+            const dealii::Point<dim>   &point)
   {
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       {
@@ -185,7 +192,7 @@ namespace Perimorph::Fracture
         for (int d = 0; d < dim; ++d)
           inside = inside && unit[d] > -touch && unit[d] < 1. + touch;
         if (inside)
-          return boundary_distance(mesh, point) >
+          return boundary_distance(mesh, surface, point) >
                  touch * corners.front().distance(corners.back());
       }
     return false;
@@ -224,9 +231,13 @@ namespace Perimorph::Fracture
                double);
 
   std::vector<CrackTip>
-  find_tips(const Mesh::NodalMesh<2> &mesh, const Bonds::CrackSet<2> &cracks)
+  find_tips(const Mesh::NodalMesh<2> &mesh,
+            const Bonds::CrackSet<2> &cracks,
+            const bool                meshed)
   {
     const auto &facets = cracks.facets();
+    const auto  surface =
+      meshed ? outer_surface(mesh, cracks) : mesh.boundary_faces;
 
     using Key = std::tuple<unsigned int, unsigned int, unsigned int, unsigned>;
     std::vector<std::pair<Key, CrackTip>> found;
@@ -242,17 +253,17 @@ namespace Perimorph::Fracture
             bool         free  = true;
             for (unsigned int g = 0; g < facets.size() && free; ++g)
               free = g == f || distance(facets[g], end) > reach;
-            if (!free || !is_inside(mesh, end))
+            if (!free || !is_inside(mesh, surface, end))
               continue;
             CrackTip tip;
             tip.frame = tip_frame(end, end - facets[f].corners[1 - corner]);
             tip.crack = facets[f].crack;
             tip.facet = f;
             tip.crack_length  = 0.;
-            tip.free_distance = free_distance(mesh, facets, tip);
+            tip.free_distance = free_distance(mesh, surface, facets, tip);
             tip.straight_distance =
               std::min(tip.free_distance,
-                       straight_distance(mesh, facets, tip.frame));
+                       straight_distance(mesh, surface, facets, tip.frame));
             const End root = first_end(facets, {f, corner});
             tip.root       = {{root.facet, root.corner}};
             found.emplace_back(Key(tip.crack, root.facet, root.corner, f), tip);
@@ -273,8 +284,10 @@ namespace Perimorph::Fracture
 
 #define INSTANTIATE(dim)                                               \
   template bool   is_inside<dim>(const Mesh::NodalMesh<dim> &,         \
+                               const Surface<dim> &,                 \
                                const dealii::Point<dim> &);          \
   template double boundary_distance<dim>(const Mesh::NodalMesh<dim> &, \
+                                         const Surface<dim> &,         \
                                          const dealii::Point<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)

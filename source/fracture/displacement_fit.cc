@@ -53,9 +53,12 @@ namespace Perimorph::Fracture
 
   template <int dim>
   void
-  DisplacementFit<dim>::set_visibility(VisibilityTest new_visible)
+  DisplacementFit<dim>::set_visibility(
+    VisibilityTest                  new_visible,
+    std::vector<dealii::Point<dim>> new_view_points)
   {
-    visible = std::move(new_visible);
+    visible     = std::move(new_visible);
+    view_points = std::move(new_view_points);
   }
 
   template <int dim>
@@ -98,7 +101,7 @@ namespace Perimorph::Fracture
         const double       distance =
           cloud->search().points()[index].distance_square(point);
         if ((distance < smallest || (distance == smallest && n < best)) &&
-            touches_material(n, material))
+            touches_material(n, material) && (!visible || visible(point, n)))
           {
             smallest = distance;
             best     = n;
@@ -116,6 +119,9 @@ namespace Perimorph::Fracture
   {
     found.clear();
     cloud->search().within(point, radius, within);
+    auto eye = point;
+    if (seed != nearest && !view_points.empty())
+      eye += 1e-3 * (view_points[seed] - point);
     if (seed == nearest)
       seed = nearest_within(point, material);
     if (seed == nearest) // no node at all
@@ -147,7 +153,7 @@ namespace Perimorph::Fracture
       found.erase(std::remove_if(found.begin(),
                                  found.end(),
                                  [&](const unsigned int index) {
-                                   return !visible(point, cloud->node(index));
+                                   return !visible(eye, cloud->node(index));
                                  }),
                   found.end());
   }

@@ -1,4 +1,5 @@
 #include <perimorph/base/exceptions.h>
+#include <perimorph/fracture/crack_slits.h>
 #include <perimorph/fracture/stress_points.h>
 #include <perimorph/mesh/cell_geometry.h>
 
@@ -301,10 +302,21 @@ namespace Perimorph::Fracture
   std::unique_ptr<DisplacementFit<dim>>
   visible_fit(const Mesh::NodalMesh<dim>   &mesh,
               const Bonds::CrackSet<dim>   &cracks,
-              std::vector<MirrorPlane<dim>> planes)
+              std::vector<MirrorPlane<dim>> planes,
+              const bool                    meshed)
   {
     auto fit = std::make_unique<DisplacementFit<dim>>(mesh, std::move(planes));
-    if (!cracks.empty())
+    if (meshed && !cracks.empty())
+      {
+        const auto places = view_points(mesh, cracks);
+        fit->set_visibility(
+          [&cracks, places](const dealii::Point<dim> &point,
+                            const unsigned int        node) {
+            return !cracks.crosses(point, places[node]);
+          },
+          places);
+      }
+    else if (!cracks.empty())
       fit->set_visibility(
         [&](const dealii::Point<dim> &point, const unsigned int node) {
           return !cracks.crosses(point, mesh.nodes[node]);
@@ -334,7 +346,8 @@ namespace Perimorph::Fracture
   template std::unique_ptr<DisplacementFit<dim>> visible_fit<dim>(           \
     const Mesh::NodalMesh<dim> &,                                            \
     const Bonds::CrackSet<dim> &,                                            \
-    std::vector<MirrorPlane<dim>>);
+    std::vector<MirrorPlane<dim>>,                                           \
+    bool);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -1,8 +1,11 @@
 """Bad input, second part: regions, supports, loads, quantities."""
 
+import os
+
 from bad_input_files import INNER, row
 from case_files import (BOND_BASED, NO_SUPPORTS, QUARTER_PLATE, SOLID,
                         parameter_text, square)
+from harness import MESHES
 
 AROUND = "Peridynamics/around"
 CORE = "Peridynamics/core size"
@@ -27,6 +30,11 @@ FLAT = {AROUND: "right", RATIO: "1", "Mesh/file": "flat.msh",
         "Mesh/geometry parameters": None}
 FLAT_MESH = {"flat.msh": square(transform=lambda x, y: (
     x if x < 1. else 0.875 + 1e-8, y))}
+
+# Finite elements with a slit from (-1, 0) to (1, 0).
+SLIT = {"Mode": "finite elements",
+        "Mesh/file": os.path.join(MESHES, "plate_slit.geo"),
+        "Mesh/geometry parameters": "dx = 0.2, nf = 2, q = 1.5"}
 
 REGIONS = [
     row("no around", ["'Peridynamics / around'", "found nothing",
@@ -72,6 +80,32 @@ REGIONS = [
         "coupled, peridynamics"],
         {"Cracks/pre-cracks": "c: 0.4 0.4 to 0.5 0.4",
          "Mode": "finite elements"}),
+    row("crack beside its slit", [
+        "'Cracks / pre-cracks'", "'c' at (", "the mesh has no slit",
+        "double nodes; coupled, peridynamics", "Plugin(Crack)"], SLIT,
+        {"Cracks/pre-cracks": "c: -1 0.1 to 1 0.1"}),
+    row("crack longer than its slit", [
+        "'Cracks / pre-cracks'", "'c' at (1.", "the mesh has no slit"], SLIT,
+        {"Cracks/pre-cracks": "c: -1 0 to 1.5 0"}),
+    row("crack shorter than its slit", [
+        "'Cracks / pre-cracks'", "'c', which ends at (0 0) on a slit",
+        "as long as their slit"], SLIT,
+        {"Cracks/pre-cracks": "c: -1 0 to 0 0"}),
+    row("crack that ends within a face of its slit", [
+        "'Cracks / pre-cracks'", "'c' at (0.", "it covers in part",
+        "at nodes of the slit"], SLIT,
+        {"Cracks/pre-cracks": "c: -1 0 to 0.21 0"}),
+    row("crack along a side of finite elements", [
+        "'Cracks / pre-cracks'", "'c' along a side of the body"], SLIT,
+        {"Cracks/pre-cracks": "c: -1 -7.5 to 1 -7.5"}),
+    row("slit of which there is no crack in the mesh", [
+        "'Cracks / pre-cracks'", "'slot'", "did you mean 'slit'"], SLIT,
+        {"Cracks/pre-cracks": "c: group slot"}),
+    row("growth in finite elements", [
+        "'Cracks / growth'", "Mode = finite elements",
+        "coupled, peridynamics"], SLIT,
+        {"Cracks/pre-cracks": "c: -1 0 to 1 0", "Cracks/growth": "segments",
+         "Cracks/fracture energy": "1"}),
     row("negative blending width", ["'Peridynamics / blending width'", "-1"],
         {WIDTH: "-1 horizons"}),
     row("horizon smaller than the spacing", [

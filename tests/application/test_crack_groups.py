@@ -93,6 +93,49 @@ CASES = [
 ]
 
 
+# gmsh doubles the nodes, at the mouth as well where it is told to.
+PLUGIN = """Physical Point("mouth") = {4};
+Mesh 2;
+Plugin(Crack).Dimension = 1;
+Plugin(Crack).PhysicalGroup = %d;
+Plugin(Crack).OpenBoundaryPhysicalGroup = %d;
+Plugin(Crack).Run;
+"""
+
+
+def check_plugin(runner, failures):
+    """An edge crack of finite elements by gmsh's Plugin(Crack), as a group and
+    typed; with a mouth that is held together."""
+    text = ON_EDGES.replace('"crack line")', '"crack line", 7)')
+    folder = runner.new_folder()
+    for name, mouth in (("mesh.geo", 8), ("closed.geo", 0)):
+        with open(os.path.join(folder, name), "w") as stream:
+            stream.write(text + PLUGIN.replace('"mouth")', '"mouth", 8)') %
+                         (7, mouth))
+    with open(os.path.join(folder, "crack.prm"), "w") as stream:
+        stream.write("set Mode = finite elements\n" + PARAMETERS %
+                     {"dim": 2, "supports": SUPPORTS[2]})
+    failures.begin("doubled by gmsh, in finite elements")
+    group, typed, closed = [
+        runner.run(["crack.prm", "--output", "out%d" % k] + words, 1, folder,
+                   "out%d" % k)
+        for k, words in enumerate(
+            ([], ["--set", "Cracks/pre-cracks=edge: 0 0.5 to 0.5 0.5"],
+             ["--set", "Mesh/file=closed.geo"]))
+    ]
+    for run in (group, typed):
+        if failures.check(run.code == 0, "exit %d" % run.code):
+            failures.check_close("cut families",
+                                 run.results()["counts"]["broken_bonds"], 0, 0)
+            for quantity, entry in typed.results()["quantities"].items():
+                failures.check_close(quantity, run.value(quantity) + 1.,
+                                     entry["value"] + 1., 1e-9)
+    failures.check(closed.code == 2 and "'edge' at (0 0.5), where both sides "
+                   "of the slit share a node" in closed.text,
+                   "exit %d of a closed mouth" % closed.code)
+    failures.end(group)
+
+
 def main():
     arguments = parse_arguments(__doc__)
     runner = Runner(arguments)
@@ -137,6 +180,7 @@ def main():
                                          entry["value"] + 1.,
                                          1e-9 if dim == 2 else 1e-5)
         failures.end(runs[0])
+    check_plugin(runner, failures)
     # To which face the side of the panel belongs is not clear.
     failures.begin("from a corner along a side")
     outcome = runner.run_case("l_shaped_panel.prm",

@@ -16,6 +16,7 @@ CAVITY = "Mesh/geometry parameters=n = 8, nr = 9"
 # An iterative solver stops at its tolerance: it must be below the differences
 # that are looked for.
 ITERATIVE = ["Solver/linear solver=iterative", "Solver/linear tolerance=1e-13"]
+SLIT = "Mesh/geometry parameters=dx = 0.05, nf = 6"
 STRIP = "Mesh/geometry parameters=L = 1.5, d = 1.03125, h = 0.0625"
 TWO_ADVANCES = "Cracks/maximum advances=2"
 ADVANCES = "Cracks/maximum advances=4"
@@ -46,6 +47,7 @@ CASES = [
       "Quantities/compare with finite elements=false"], False),
     ("finite elements only", "plate_with_hole.prm",
      [PLATE, "Mode=finite elements"], False),
+    ("meshed crack", "centre_crack_meshed.prm", [SLIT], False),
     ("energy blending", "plate_with_hole.prm",
      [PLATE, "Peridynamics/coupling=energy blending"], True),
     ("force blending", "plate_with_hole.prm",

@@ -7,7 +7,20 @@
 
 namespace Perimorph::Application
 {
-  /// Facets of pre-cracks: the pieces of lines in 2D, fans of triangles in 3D.
+  template <int dim>
+  std::vector<dealii::Point<dim>>
+  points_of_line(const Parameters::Polyline &line);
+
+  /// The pieces of a line in 2D, a fan of triangles and the triangles of a
+  /// group in 3D.
+  /// @param points  those of the line, or where its ends have been moved
+  template <int dim>
+  std::vector<Bonds::CrackFacet<dim>>
+  facets_of_line(const Parameters::Polyline            &line,
+                 const std::vector<dealii::Point<dim>> &points,
+                 unsigned int                           crack);
+
+  /// Facets of pre-cracks that cut bonds.
   /// Open ends of lines that lie on the surface of the body (within a
   /// thousandth of the spacing) go on for a tenth of the spacing, so that they
   /// open it; at re-entrant corners and holes, where bonds pass outside of the

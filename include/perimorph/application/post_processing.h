@@ -110,6 +110,10 @@ namespace Perimorph::Application
     std::vector<std::string>
     expected_names() const;
 
+    /// Cracks of elements alone lie on slits of the mesh.
+    bool
+    has_slits() const;
+
     /// Name of each tip or front of the cracks at the start.
     void
     name_crack_tips();

@@ -19,6 +19,8 @@ namespace Perimorph::Fracture
     const Peridynamics::FamilySet<dim> *families = nullptr;
     /// For the fits at the crack.
     std::vector<MirrorPlane<dim>> planes = {};
+    /// Finite elements only, the cracks on slits of the mesh (crack_slits.h).
+    bool meshed = false;
   };
 
   /// Values at a tip on each annulus; the first is the one to report.
@@ -30,8 +32,7 @@ namespace Perimorph::Fracture
     /// Free distance that the smallest annulus needs.
     double needed_distance = 0.;
     /// Not a number where the crack is straight over less than 5 spacings. A
-    /// check of the factors; not for a crack that is meshed (nodes in one
-    /// place on both faces).
+    /// check of the factors.
     OpeningFactors opening;
     /// StressPointSet::n_without_stress of all ranks; 0 when all is well.
     unsigned int n_without_stress = 0;
@@ -43,7 +44,7 @@ namespace Perimorph::Fracture
   };
 
   /// Quantities of tips, the same on every rank. Collective.
-  /// @param tips    find_tips(), or the tips of a meshed crack
+  /// @param tips    find_tips()
   /// @param annuli  of every tip; empty: default_annuli() of each
   std::vector<TipQuantities>
   tip_quantities(const CrackedBody<2>        &body,

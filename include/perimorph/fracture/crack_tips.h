@@ -44,8 +44,12 @@ namespace Perimorph::Fracture
   /// All tips: ends that touch no other facet and lie inside the body. In the
   /// order of the cracks, of one crack in the order of the first ends that they
   /// grew from, so that an advance does not change the order.
+  /// @param meshed  the cracks lie on slits of the mesh, whose faces are not
+  ///                the surface of the body (crack_slits.h)
   std::vector<CrackTip>
-  find_tips(const Mesh::NodalMesh<2> &mesh, const Bonds::CrackSet<2> &cracks);
+  find_tips(const Mesh::NodalMesh<2> &mesh,
+            const Bonds::CrackSet<2> &cracks,
+            bool                      meshed = false);
 
   /// The part of the edge of a plane crack in space that lies inside the body.
   struct CrackFront
@@ -89,17 +93,26 @@ namespace Perimorph::Fracture
   /// All fronts, in the order of the cracks: chains of edges that belong to one
   /// triangle only, inside the body and not on another crack. Corners that
   /// triangles share must agree exactly.
+  /// @param meshed  as for tips
   std::vector<CrackFront>
-  find_fronts(const Mesh::NodalMesh<3> &mesh, const Bonds::CrackSet<3> &cracks);
+  find_fronts(const Mesh::NodalMesh<3> &mesh,
+              const Bonds::CrackSet<3> &cracks,
+              bool                      meshed = false);
 
-  /// True in a cell of the mesh and not on its surface.
+  template <int dim>
+  using Surface = std::vector<Mesh::BoundaryFace<dim>>;
+
+  /// True in a cell of the mesh and not on the surface of the body.
   template <int dim>
   bool
-  is_inside(const Mesh::NodalMesh<dim> &mesh, const dealii::Point<dim> &point);
+  is_inside(const Mesh::NodalMesh<dim> &mesh,
+            const Surface<dim>         &surface,
+            const dealii::Point<dim>   &point);
 
   /// Distance to the surface of the body (faces in space as two triangles).
   template <int dim>
   double
   boundary_distance(const Mesh::NodalMesh<dim> &mesh,
+                    const Surface<dim>         &surface,
                     const dealii::Point<dim>   &point);
 } // namespace Perimorph::Fracture

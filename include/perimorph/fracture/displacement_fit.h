@@ -65,8 +65,11 @@ namespace Perimorph::Fracture
 
     /// Restricts later fits; a mirrored copy is asked for as its original. An
     /// empty function takes the restriction away.
+    /// @param view_points  of all nodes; a point on a slit is on the side of
+    ///                     that of its seed. Empty: there are no slits
     void
-    set_visibility(VisibilityTest visible);
+    set_visibility(VisibilityTest                  visible,
+                   std::vector<dealii::Point<dim>> view_points = {});
 
     unsigned int
     nearest_node(const dealii::Point<dim> &point) const;
@@ -82,8 +85,8 @@ namespace Perimorph::Fracture
     ///                      kink at an interface stays sharp; or any_material
     /// @param displacement  one vector per node of the mesh
     /// @param seed          node on the side of the point, on a cell of the
-    ///                      material; nearest: the nearest such node (of two
-    ///                      in one place, on a slit, the lower number)
+    ///                      material; nearest: the nearest such node that is
+    ///                      visible (of two in one place the lower number)
     FitResult<dim>
     fit(const dealii::Point<dim>                  &point,
         double                                     length,
@@ -103,6 +106,7 @@ namespace Perimorph::Fracture
     const double                        sharpness;
     std::unique_ptr<MirroredNodes<dim>> cloud;
     VisibilityTest                      visible;
+    std::vector<dealii::Point<dim>>     view_points;
 
     enum class NodeState : unsigned char
     {
@@ -123,7 +127,8 @@ namespace Perimorph::Fracture
                int                       material,
                unsigned int              seed) const;
 
-    /// Of the points in the list within, the nearest node on the material.
+    /// Of the points in the list within, the nearest node on the material that
+    /// is visible.
     unsigned int
     nearest_within(const dealii::Point<dim> &point, int material) const;
 

@@ -116,9 +116,11 @@ namespace Perimorph::Fracture
 
   /// A fit that uses the nodes only that a point sees past the cracks.
   /// @param mesh, cracks  kept as references
+  /// @param meshed        the cracks lie on slits of the mesh (crack_slits.h)
   template <int dim>
   std::unique_ptr<DisplacementFit<dim>>
   visible_fit(const Mesh::NodalMesh<dim>   &mesh,
               const Bonds::CrackSet<dim>   &cracks,
-              std::vector<MirrorPlane<dim>> planes = {});
+              std::vector<MirrorPlane<dim>> planes = {},
+              bool                          meshed = false);
 } // namespace Perimorph::Fracture
