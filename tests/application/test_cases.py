@@ -317,7 +317,9 @@ def check_cases(failures, runner, selected):
             if name in GROWTH:
                 check_growth(failures, outcome, GROWTH[name])
         failures.end(outcome)
-        if selected(name + " --validate"):
+        # A file that has run as it is shipped is valid: one of them is enough.
+        if selected(name + " --validate") and (overrides or
+                                               name == "patch_test.prm"):
             failures.begin(name + " --validate")
             outcome = runner.run(
                 [os.path.join(PARAMETER_FILES, name), "--validate"])

@@ -167,12 +167,72 @@ def bent_slits(study):
                              solution["crack_tip1_J"], 1.)
 
 
+BEAM = """SetFactory("Built-in");
+Point(1) = {0, -0.5, 0}; Point(2) = {1, -0.5, 0}; Point(3) = {10, -0.5, 0};
+Point(4) = {10, 0.5, 0}; Point(5) = {1, 0.5, 0}; Point(6) = {0, 0.5, 0};
+Point(7) = {1, 0.35, 0}; Point(8) = {1, 0.5, 0};
+Point(9) = {0, 0, 0}; Point(10) = {10, 0, 0};
+Line(1) = {1, 2}; Line(2) = {2, 7}; Line(3) = {7, 5}; Line(4) = {5, 6};
+Line(5) = {6, 9}; Line(6) = {9, 1}; Line(7) = {2, 3}; Line(8) = {3, 10};
+Line(9) = {10, 4}; Line(10) = {4, 8}; Line(11) = {8, 7};
+Curve Loop(1) = {1:6}; Plane Surface(1) = {1};
+Curve Loop(2) = {7:11, -2}; Plane Surface(2) = {2};
+Field[1] = Distance; Field[1].NodesList = {7};
+Field[2] = MathEval; Field[2].F = "%g + 0.12*F1";
+Field[3] = MathEval; Field[3].F = "0.15";
+Field[4] = Min; Field[4].FieldsList = {2, 3};
+Background Field = 4;
+Mesh.CharacteristicLengthExtendFromBoundary = 0;
+Mesh.CharacteristicLengthFromPoints = 0;
+Mesh.RecombinationAlgorithm = 3; Recombine Surface{1, 2};
+Physical Surface("domain", 1) = {1, 2};
+Physical Curve("left", 11) = {5, 6}; Physical Curve("right", 12) = {8, 9};
+"""
+
+
+def bent_beam(study):
+    """cracked_cantilever.prm at 4.2 kN, a displacement of 1.4 m: an edge crack
+    at finite strain. References: elastica with Tada's crack hinge."""
+    release, deflection = 2002.8, -1.3915
+    found = []
+    for spacing in (.01, .005):
+        folder = study.folder()
+        with open(folder + "/beam.geo", "w") as file:
+            file.write(BEAM % spacing)
+        solution = study.solve(
+            write_parameters(
+                folder + "/case.prm", {
+                    "Mode": "finite elements",
+                    "Mesh/file": "beam.geo",
+                    "Material/law": "hencky",
+                    "Material/Young's modulus": 12e6,
+                    "Material/Poisson's ratio": .2,
+                    "Material/state": "plane strain",
+                    "Cracks/pre-cracks": "notch: 1 0.5 to 1 0.35",
+                    "Boundary conditions/displacement": "left: x = 0",
+                    "Boundary conditions/point displacement": "0 0: y = 0",
+                    "Boundary conditions/traction":
+                    "left: y = 4200*t; right: y = -4200*t",
+                    "Load steps/number of steps": 4,
+                    "Quantities/point": "tip: 10 0"
+                }))
+        found.append(solution["notch_tip1_J"])
+        study.note("h %g: J %+.2f %%" % (spacing, percent(found[-1], release)))
+        study.below("h %g: domain dependence %%" % spacing,
+                    100. * solution["notch_tip1_domain_dependence"], .1)
+    study.between("J rises with finer meshes", found[1] / found[0], 1., 1.05)
+    study.within_percent("J", found[1], release, 2.)
+    study.within_percent("deflection", solution["tip_displacement_y"],
+                         deflection, 1.)
+
+
 def main():
     study = Study(__doc__)
     for name, part in (("centre crack in a strip (Tada), a/b = 0.4",
                         centre_crack),
                        ("slant slit, infinite plate", slant_crack),
-                       ("slits that bend, unstructured", bent_slits)):
+                       ("slits that bend, unstructured", bent_slits),
+                       ("edge crack at finite strain", bent_beam)):
         if study.part(name):
             part(study)
     study.finish()
