@@ -147,6 +147,64 @@ namespace
       }
   }
 
+  // Slit at z = 1/2, x < 1/2 through a cube.
+  TEST(CrackSlits, front_of_a_slit_in_space)
+  {
+    using Point3                      = dealii::Point<3>;
+    auto                      mesh    = Testing::unit_mesh<3>(4);
+    const unsigned int        n_nodes = mesh.n_nodes();
+    std::vector<unsigned int> upper(n_nodes);
+    for (unsigned int n = 0; n < n_nodes; ++n)
+      {
+        upper[n] = n;
+        if (std::abs(mesh.nodes[n][2] - 0.5) < 1e-9 && mesh.nodes[n][0] < 0.49)
+          {
+            upper[n] = mesh.nodes.size();
+            mesh.nodes.push_back(Point3(mesh.nodes[n]));
+          }
+      }
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      {
+        const auto &x = mesh.cell_centroid[c];
+        if (x[2] > 0.5)
+          for (unsigned int &node : mesh.cells[c])
+            node = upper[node];
+        if (x[0] < 0.5 && std::abs(x[2] - 0.5) < 0.2)
+          {
+            const unsigned int    first = x[2] > 0.5 ? 0 : 4;
+            Mesh::BoundaryFace<3> face{c, first == 0 ? 4u : 5u, 0, {}};
+            for (unsigned int v = 0; v < 4; ++v)
+              face.nodes[v] = mesh.cells[c][first + v];
+            mesh.boundary_faces.push_back(face);
+          }
+      }
+    mesh.owned_end = mesh.n_nodes();
+    mesh.compute_derived();
+    const std::array<Point3, 4> corners = {{Point3(0., 0., 0.5),
+                                            Point3(0.5, 0., 0.5),
+                                            Point3(0.5, 1., 0.5),
+                                            Point3(0., 1., 0.5)}};
+    const Bonds::CrackSet<3>    cracks(
+      {{{{corners[0], corners[1], corners[2]}}, 0, 0},
+          {{{corners[0], corners[2], corners[3]}}, 0, 0}});
+    const auto on = faces_on_cracks(mesh, cracks);
+    EXPECT_EQ(std::count(on.begin(), on.end(), true), 16);
+    EXPECT_EQ(nodes_of_both_sides(mesh, cracks).size(), 5u);
+    EXPECT_TRUE(find_fronts(mesh, cracks).empty());
+    const auto fronts = find_fronts(mesh, cracks, true);
+    ASSERT_EQ(fronts.size(), 1u);
+    EXPECT_NEAR(fronts[0].length(), 1., 1e-14);
+    EXPECT_NEAR(fronts[0].at(0.3).frame.axes[0][0], 1., 1e-14);
+    const auto places = view_points(mesh, cracks);
+    for (unsigned int n = n_nodes; n < mesh.n_nodes(); ++n)
+      EXPECT_GT(places[n][2], 0.5 + 1e-5);
+    for (unsigned int n = 0; n < n_nodes; ++n)
+      if (upper[n] != n)
+        {
+          EXPECT_LT(places[n][2], 0.5 - 1e-5);
+        }
+  }
+
   // Beside the tip the faces are connected around it.
   TEST(CrackSlits, fits_take_nodes_of_one_face)
   {
