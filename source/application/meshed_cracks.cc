@@ -108,28 +108,28 @@ namespace Perimorph::Application
       return facets;
     }
 
-    /// Distance of a point to the nearest tip or front.
-    double
-    distance_to_ends(const Mesh::NodalMesh<2> &mesh,
-                     const Bonds::CrackSet<2> &cracks,
-                     const dealii::Point<2>   &point)
+    std::vector<Fracture::CrackTip>
+    find_ends(const Mesh::NodalMesh<2> &mesh, const Bonds::CrackSet<2> &cracks)
     {
-      double smallest = std::numeric_limits<double>::infinity();
-      for (const auto &tip : Fracture::find_tips(mesh, cracks, true))
-        smallest = std::min(smallest, tip.frame.origin.distance(point));
-      return smallest;
+      return Fracture::find_tips(mesh, cracks, true);
+    }
+
+    std::vector<Fracture::CrackFront>
+    find_ends(const Mesh::NodalMesh<3> &mesh, const Bonds::CrackSet<3> &cracks)
+    {
+      return Fracture::find_fronts(mesh, cracks, true);
     }
 
     double
-    distance_to_ends(const Mesh::NodalMesh<3> &mesh,
-                     const Bonds::CrackSet<3> &cracks,
-                     const dealii::Point<3>   &point)
+    distance(const Fracture::CrackTip &tip, const dealii::Point<2> &point)
     {
-      double smallest = std::numeric_limits<double>::infinity();
-      for (const auto &front : Fracture::find_fronts(mesh, cracks, true))
-        smallest =
-          std::min(smallest, front.nearest(point).frame.origin.distance(point));
-      return smallest;
+      return tip.frame.origin.distance(point);
+    }
+
+    double
+    distance(const Fracture::CrackFront &front, const dealii::Point<3> &point)
+    {
+      return front.nearest(point).frame.origin.distance(point);
     }
 
     /// The sides of the slits are connected at tips and fronts only.
@@ -139,9 +139,11 @@ namespace Perimorph::Application
                 const Bonds::CrackSet<dim>              &cracks,
                 const std::vector<Parameters::Polyline> &lines)
     {
+      const auto ends = find_ends(mesh, cracks);
       for (const unsigned int n : Fracture::nodes_of_both_sides(mesh, cracks))
-        if (distance_to_ends(mesh, cracks, mesh.nodes[n]) >
-            1e-3 * mesh.spacing[n])
+        if (std::none_of(ends.begin(), ends.end(), [&](const auto &end) {
+              return distance(end, mesh.nodes[n]) < 1e-3 * mesh.spacing[n];
+            }))
           {
             unsigned int nearest  = 0;
             double       smallest = std::numeric_limits<double>::infinity();
