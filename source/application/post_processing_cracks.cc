@@ -167,14 +167,14 @@ namespace Perimorph::Application
         if (last.n_facets != cracks.facets().size() ||
             last.alpha != region.alpha ||
             last.displacement != state.displacement)
-          last = {
-            cracks.facets().size(),
-            region.alpha,
-            state.displacement,
-            Fracture::tip_quantities(cracked_body(state, region, families),
-                                     Fracture::find_tips(mesh.nodal(), cracks, has_slits()),
-                                     {},
-                                     mesh.communicator())};
+          last = {cracks.facets().size(),
+                  region.alpha,
+                  state.displacement,
+                  Fracture::tip_quantities(
+                    cracked_body(state, region, families),
+                    Fracture::find_tips(mesh.nodal(), cracks, has_slits()),
+                    {},
+                    mesh.communicator())};
         return last.quantities;
       }
     else
