@@ -121,6 +121,14 @@ namespace Perimorph::Application
                       friction_angle,
                       "phi [degrees] of Mohr-Coulomb, with 'cohesion'.",
                       Double(0., 89.));
+    prm.add_parameter(
+      "hand over length",
+      hand_over_length,
+      "Of growth = bonds in 2D: once broken bonds form a crack of this length "
+      "(or in horizons: '3 horizons') it becomes a line, tips where the energy "
+      "changes least, and cracks grow by segments from then on; needs the "
+      "'fracture energy'. New cracks no longer start then. never: bonds only.",
+      Anything());
     prm.add_parameter("protected boundaries",
                       protected_boundaries,
                       "Of growth = bonds: bonds with an end within one horizon "

@@ -336,6 +336,8 @@ namespace Perimorph::Application
     start_events(method, step, on_newton);
     while (n_events < parameters.growth.maximum_advances)
       {
+        if (hand_over(method, step, on_step))
+          return follow_growth_events(method, on_step, on_newton);
         auto bonds = next_to_break(method, never);
         if (bonds.empty())
           {
@@ -375,6 +377,8 @@ namespace Perimorph::Application
   {
     while (n_events < parameters.growth.maximum_advances)
       {
+        if (hand_over(method, step, on_step))
+          return grow_cracks(method, step, on_step);
         auto bonds = next_to_break(method, 1.);
         if (bonds.empty())
           return true;

@@ -142,6 +142,11 @@ namespace Perimorph::Application
     action("released energy", released_energy);
     action("dissipated energy", dissipated_energy);
     action("crack growth", grown_length);
+    action("handed over", handed_over);
+    action("energy of hand-over", hand_over_energy);
+    action("crack at hand-over", hand_over_crack);
+    action("event of hand-over", hand_over_event);
+    action("solves before hand-over", solves_before);
     action("switched energy", switched_energy);
     action("work", work);
     action("counts work", counts_work);
@@ -300,6 +305,7 @@ namespace Perimorph::Application
     const auto advances = stored_advances<dim>(*resumed);
     const auto alpha    = arrays.find("alpha");
     cracks.append(advances);
+    name_nucleated_cracks();
     broken = stored_broken_bonds(*mesh, *resumed);
     if (alpha != arrays.end() || !advances.empty() || !broken.empty())
       {

@@ -172,7 +172,7 @@ namespace Perimorph::Application
                                        Step         &step,
                                        const OnStep &on_step)
   {
-    if (parameters.growth.bonds)
+    if (parameters.growth.bonds && !handed_over)
       return break_overloaded_bonds(method, step, on_step);
     if (parameters.growth.active)
       return grow_cracks(method, step, on_step);

@@ -21,8 +21,9 @@ namespace Perimorph::Application
     // Domain integrals are best where one method carries all of the annulus
     // (doc/theory, 12).
     if (region.core_size.automatic)
-      region.core_size = {pre_cracks.empty() || texts.crack_growth == "bonds"
-                            ? 2.
+      region.core_size = {texts.crack_growth == "bonds"
+                            ? (texts.hand_over_length == "never" ? 2. : 4.)
+                          : pre_cracks.empty()               ? 2.
                           : texts.crack_growth == "segments" ? 4.
                                                              : 5.,
                           true,
@@ -58,6 +59,7 @@ namespace Perimorph::Application
                              "'" + text + "' with growth '" +
                                texts.crack_growth + "'",
                              "growth = bonds");
+    read_hand_over(texts, errors);
     if (!growth.active)
       return;
     if (growth.bonds)
@@ -174,7 +176,10 @@ namespace Perimorph::Application
     const std::string criterion =
       Damage::criterion_names()[static_cast<int>(growth.criterion)];
     for (const auto &entry : std::vector<Entry>{
-           {"fracture energy", limits.fracture_energy, by_energy, by_energy},
+           {"fracture energy",
+            limits.fracture_energy,
+            by_energy || growth.hand_over,
+            by_energy || growth.hand_over},
            {"energy calibration", limits.calibration, by_energy, false},
            {"critical stretch", limits.stretch, stretch, false},
            {"softening stretch", limits.softening_stretch, given, false},
@@ -198,8 +203,10 @@ namespace Perimorph::Application
           "Cracks / " + entry.name,
           "nothing or 0",
           "a number > 0",
-          "The criterion is '" + criterion + "'" +
-            (stretch ? "; or give a 'critical stretch'." : "."));
+          entry.name == "fracture energy" && !by_energy
+            ? "Cracks grow by it behind the 'hand over length'."
+            : "The criterion is '" + criterion + "'" +
+                (stretch ? "; or give a 'critical stretch'." : "."));
       else if (!entry.used && entry.value > 0.)
         {
           std::ostringstream found;
@@ -219,6 +226,40 @@ namespace Perimorph::Application
                              found.str(),
                              allowed.str());
       }
+  }
+
+  template <int dim>
+  void
+  SimulationParameters<dim>::read_hand_over(const ParameterTexts      &texts,
+                                            Base::InputErrorCollector &errors)
+  {
+    if (texts.hand_over_length == "never")
+      return;
+    const std::string entry = "Cracks / hand over length";
+    const std::string found = "'" + texts.hand_over_length + "'";
+    const auto        length =
+      Parameters::parse_length(entry, texts.hand_over_length, false, errors);
+    growth.hand_over = length;
+    if (!growth.bonds)
+      errors.add_parameter(entry,
+                           found + " with growth '" + texts.crack_growth + "'",
+                           "never, or growth = bonds",
+                           "Cracks that bonds make are handed over.");
+    else if (dim == 3)
+      errors.add_parameter(entry,
+                           found + " in 3D",
+                           "never",
+                           "Segments grow in 2D only.");
+    else if (coupling.scheme != Coupling::Scheme::consistent)
+      errors.add_parameter(entry,
+                           found + " with coupling '" + texts.coupling + "'",
+                           "never, or coupling = consistent",
+                           "Segments need it.");
+    else if (length.in_horizons ? length.value < 1. : !(length.value > 0.))
+      errors.add_parameter(entry,
+                           found,
+                           "never, or a length of at least '1 horizons'",
+                           "Few broken bonds have no direction.");
   }
 
   template <int dim>
@@ -268,6 +309,12 @@ namespace Perimorph::Application
   template void
   SimulationParameters<3>::read_bond_limits(const ParameterTexts &,
                                             Base::InputErrorCollector &);
+  template void
+  SimulationParameters<2>::read_hand_over(const ParameterTexts &,
+                                          Base::InputErrorCollector &);
+  template void
+  SimulationParameters<3>::read_hand_over(const ParameterTexts &,
+                                          Base::InputErrorCollector &);
   template void
   SimulationParameters<2>::read_protection(const ParameterTexts &,
                                            Base::InputErrorCollector &);

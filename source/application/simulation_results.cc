@@ -325,11 +325,24 @@ namespace Perimorph::Application
     if (parameters.growth.active)
       {
         result->set("growth", "end", growth_end);
-        result->set("growth",
-                    parameters.growth.bonds ? "events" : "advances",
-                    parameters.growth.bonds ? n_events : n_advances);
-        if (!parameters.growth.bonds)
-          result->set("growth", "crack_growth", grown_length);
+        if (parameters.growth.bonds)
+          result->set("growth", "events", n_events);
+        if (!parameters.growth.bonds || handed_over)
+          {
+            result->set("growth", "advances", n_advances);
+            result->set("growth", "crack_growth", grown_length);
+          }
+        if (handed_over)
+          {
+            result->set("growth", "hand_over_event", hand_over_event);
+            result->set("growth", "hand_over_crack_length", hand_over_crack);
+            result->set("growth", "hand_over_energy", hand_over_energy);
+            result->set("growth",
+                        "solves_after_hand_over",
+                        static_cast<unsigned int>(
+                          *result->number("counts", "newton_iterations")) -
+                          solves_before);
+          }
         result->set("growth", "released_energy", released_energy);
         result->set("growth", "dissipated_energy", dissipated_energy);
       }

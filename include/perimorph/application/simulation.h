@@ -264,6 +264,16 @@ namespace Perimorph::Application
     break_bonds(Method                      &method,
                 const std::vector<BondLoad> &bonds,
                 const Step                  &step);
+    /// Makes cracks of the bonds that broke, once the longest of them reaches
+    /// 'hand over length': from then on cracks grow by segments. Tips are put
+    /// where the potential energy at fixed loads changes least; the change
+    /// counts as switched_energy. on_step gets the state after.
+    /// @return  whether it did
+    bool
+    hand_over(Method &method, Step &step, const OnStep &on_step);
+    /// Names cracks that came from bonds.
+    void
+    name_nucleated_cracks();
     /// Large parts of the body and parts that loads act on.
     unsigned int
     n_parts(const Method &method, const State<dim> &loaded) const;
@@ -374,6 +384,12 @@ namespace Perimorph::Application
     Output::CsvWriter                    *broken_table   = nullptr;
     unsigned int                          n_events       = 0;
     unsigned int                          parts_at_start = 1;
+
+    // From bonds to segments.
+    bool         handed_over = false;
+    unsigned int n_nucleated = 0;
+    double hand_over_energy = 0., hand_over_crack = 0.; ///< change, length
+    unsigned int hand_over_event = 0, solves_before = 0;
 
     // Work of loads and supports, by the trapezoidal rule between states.
     State<dim> last_state;

@@ -16,6 +16,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,7 +48,7 @@ namespace Perimorph::Application
     std::string pre_cracks,
       crack_treatment = "consistent", crack_growth = "none",
       advance_length = "1 horizons", growth_control = "load steps",
-      criterion            = "automatic";
+      criterion = "automatic", hand_over_length = "never";
     double fracture_energy = 0., energy_calibration = 0., critical_stretch = 0.,
            softening_stretch = 0., softening_steepness = 3.,
            critical_bond_strain = 0., critical_equivalent_strain = 0.,
@@ -109,6 +110,8 @@ namespace Perimorph::Application
     double             fracture_energy;
     Parameters::Length advance;
     unsigned int       maximum_advances;
+    /// Length from which on a crack of broken bonds grows by segments.
+    std::optional<Parameters::Length> hand_over;
     /// Bonds with an end there never break.
     std::vector<Parameters::Feature> protected_features;
   };
@@ -205,6 +208,9 @@ namespace Perimorph::Application
     void
     read_bond_limits(const ParameterTexts      &texts,
                      Base::InputErrorCollector &errors);
+    void
+    read_hand_over(const ParameterTexts      &texts,
+                   Base::InputErrorCollector &errors);
     void
     read_protection(const ParameterTexts      &texts,
                     Base::InputErrorCollector &errors);

@@ -1,0 +1,267 @@
+#include <perimorph/application/crack_setup.h>
+#include <perimorph/application/simulation.h>
+#include <perimorph/base/log.h>
+#include <perimorph/fracture/nucleated_crack.h>
+#include <perimorph/mesh/feature_distance.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Perimorph::Application
+{
+  namespace
+  {
+    /// Broken and softened bonds so near the line of a crack are replaced by it
+    /// [in horizons].
+    constexpr double replaced_within = 2.;
+
+    /// The free ends may move so far from where the bonds end [in horizons].
+    constexpr double largest_move = 1.5;
+
+    Fracture::BrokenPlace
+    middle_of(const Mesh::NodalMesh<2>          &mesh,
+              const std::vector<double>         &horizon,
+              const std::array<unsigned int, 2> &nodes)
+    {
+      return {mesh.nodes[nodes[0]] +
+                0.5 * (mesh.nodes[nodes[1]] - mesh.nodes[nodes[0]]),
+              0.5 * (horizon[nodes[0]] + horizon[nodes[1]])};
+    }
+
+    std::vector<Fracture::BrokenPlace>
+    broken_places(const Mesh::NodalMesh<2>  &mesh,
+                  const std::vector<double> &horizon,
+                  const Bonds::BrokenBonds  &broken)
+    {
+      std::vector<Fracture::BrokenPlace> places;
+      for (const auto &bond : broken.list())
+        if (bond.teeth == broken.n_teeth())
+          places.push_back(middle_of(mesh, horizon, bond.nodes));
+      return places;
+    }
+
+    /// The bonds that stay broken.
+    Bonds::BrokenBonds
+    without_those_at(const Mesh::NodalMesh<2>                    &mesh,
+                     const std::vector<double>                   &horizon,
+                     const std::vector<Fracture::NucleatedCrack> &made,
+                     const Bonds::BrokenBonds                    &broken)
+    {
+      Bonds::BrokenBonds left(broken.n_teeth());
+      for (const auto &bond : broken.list())
+        {
+          const auto middle   = middle_of(mesh, horizon, bond.nodes);
+          bool       replaced = false;
+          for (const auto &crack : made)
+            for (std::size_t k = 1; k < crack.line.size(); ++k)
+              if (Mesh::closest_on_segment(middle.position,
+                                           crack.line[k - 1],
+                                           crack.line[k])
+                    .distance(middle.position) <=
+                  replaced_within * middle.horizon)
+                replaced = true;
+          for (unsigned int tooth = 0; tooth < bond.teeth && !replaced; ++tooth)
+            left.add(bond.nodes[0], bond.nodes[1], bond.event);
+        }
+      return left;
+    }
+
+    /// The cracks as facets.
+    /// @param next  number of the first new crack
+    /// @throws Base::InputError  a crack that cannot open the surface
+    std::vector<Bonds::CrackFacet<2>>
+    facets_of(const Mesh::NodalMesh<2>                    &mesh,
+              const std::vector<Fracture::NucleatedCrack> &made,
+              const double                                 move,
+              const double                                 horizon_ratio,
+              unsigned int                                 next)
+    {
+      std::vector<Bonds::CrackFacet<2>> facets;
+      for (const auto &crack : made)
+        {
+          Parameters::Polyline line;
+          for (const auto &point :
+               Fracture::with_tips_moved(crack, move * crack.horizon))
+            line.points.push_back({point[0], point[1]});
+          const unsigned int number = crack.crack ? *crack.crack : next++;
+          const auto opened = make_cracks<2>(mesh, {line}, horizon_ratio);
+          for (auto facet : opened.facets())
+            {
+              facet.crack = number;
+              facet.step  = 1;
+              facets.push_back(facet);
+            }
+        }
+      return facets;
+    }
+  } // namespace
+
+  template <int dim>
+  void
+  Simulation<dim>::name_nucleated_cracks()
+  {
+    if constexpr (dim == 2)
+      for (const auto &facet : cracks.facets())
+        if (facet.crack == parameters.pre_cracks.size())
+          {
+            ++n_nucleated;
+            parameters.pre_cracks.push_back(
+              {"nucleated_" + std::to_string(n_nucleated), {}, "", {}});
+          }
+  }
+
+  template <int dim>
+  bool
+  Simulation<dim>::hand_over([[maybe_unused]] Method       &method,
+                             [[maybe_unused]] Step         &step,
+                             [[maybe_unused]] const OnStep &on_step)
+  {
+    if constexpr (dim == 2)
+      {
+        const auto &growth = parameters.growth;
+        if (!growth.hand_over || broken.size() == 0)
+          return false;
+        const auto &nodal   = mesh->nodal();
+        const auto  horizon = method.region.horizon;
+        auto        made    = Fracture::find_nucleated_cracks(
+          nodal,
+          cracks,
+          broken_places(nodal, horizon, broken));
+        // Cracks at both sides of a hole grow in turns: those of half the
+        // length come along.
+        double     longest = 0.;
+        const auto share   = [&](const Fracture::NucleatedCrack &crack) {
+          return Fracture::length_of_line(crack.line) /
+                 (growth.hand_over->in_horizons
+                      ? growth.hand_over->value * crack.horizon
+                      : std::max(growth.hand_over->value, crack.horizon));
+        };
+        made.erase(
+          std::remove_if(made.begin(),
+                         made.end(),
+                         [&](const auto &crack) {
+                           longest = crack.is_free[1]
+                                       ? std::max(longest, share(crack))
+                                       : longest;
+                           return !crack.is_free[1] || share(crack) < 0.5;
+                         }),
+          made.end());
+        if (longest < 1.)
+          return false;
+
+        auto wider          = parameters.region;
+        wider.may_fill_body = true;
+        std::vector<Bonds::CrackFacet<2>> facets;
+        const auto                        place = [&](const double move) {
+          facets      = facets_of(nodal,
+                             made,
+                             move,
+                             parameters.region.horizon_ratio,
+                             parameters.pre_cracks.size());
+          auto longer = cracks;
+          longer.append(facets);
+          return longer;
+        };
+        try
+          {
+            for (const auto &feature : crack_features(place(0.)))
+              wider.features.push_back(feature);
+          }
+        catch (const Base::InputError &)
+          {
+            // Along a side of the body: perhaps later.
+            return false;
+          }
+        grow_core(method, wider);
+
+        const auto   all    = broken;
+        const double before = potential_energy(method);
+        const double scale  = gather(method).strain_energy;
+        broken = without_those_at(nodal, method.region.horizon, made, all);
+
+        // Illinois' method for the move of the tips that keeps the energy.
+        std::optional<Method>             best;
+        std::vector<Bonds::CrackFacet<2>> best_facets;
+        double     best_change = std::numeric_limits<double>::infinity();
+        const auto change      = [&](const double move) {
+          const auto   longer = place(move);
+          auto         other  = solve_with(longer, method.region, method);
+          const double value  = potential_energy(other) - before;
+          if (std::abs(value) < std::abs(best_change))
+            {
+              best_change = value;
+              best_facets = facets;
+              best        = std::move(other);
+            }
+          return value;
+        };
+        constexpr double       precision      = 1e-4;
+        constexpr unsigned int most_solutions = 8;
+        double                 low = 0., high = 0.;
+        double                 at_low = change(0.), at_high = at_low;
+        const double           way = at_low > 0. ? 0.5 : -0.5;
+        unsigned int           n   = 1;
+        while (at_low * at_high > 0. &&
+               std::abs(high + way) <= largest_move + 1e-12)
+          {
+            low     = high;
+            at_low  = at_high;
+            high    = high + way;
+            at_high = change(high);
+            ++n;
+          }
+        while (at_low * at_high < 0. && n < most_solutions &&
+               std::abs(best_change) > precision * scale)
+          {
+            const double middle =
+              (low * at_high - high * at_low) / (at_high - at_low);
+            const double value = change(middle);
+            ++n;
+            if (value * at_high < 0.)
+              {
+                low    = high;
+                at_low = at_high;
+              }
+            else
+              at_low *= 0.5;
+            high    = middle;
+            at_high = value;
+          }
+
+        cracks.append(best_facets);
+        name_nucleated_cracks();
+        method           = std::move(*best);
+        handed_over      = true;
+        hand_over_energy = best_change;
+        switched_energy += best_change;
+        count_work(gather(method));
+        hand_over_event = n_events;
+        hand_over_crack = 0.;
+        for (const auto &facet : best_facets)
+          hand_over_crack += facet.measure();
+        solves_before = static_cast<unsigned int>(
+          *result->number("counts", "newton_iterations"));
+        for (const auto &facet : best_facets)
+          log << "  broken bonds become crack '"
+              << parameters.pre_cracks[facet.crack].name << "': ("
+              << facet.corners[0] << ") to (" << facet.corners[1] << ")\n";
+        log << "  hand-over to growth by segments: change of energy "
+            << best_change << " (" << best_change / scale
+            << " of the strain energy), " << n << " solutions" << std::endl;
+        ++step.number;
+        on_step(step);
+        return true;
+      }
+    else
+      return false;
+  }
+
+#define PERIMORPH_INSTANTIATE(dim)                        \
+  template void Simulation<dim>::name_nucleated_cracks(); \
+  template bool Simulation<dim>::hand_over(Method &, Step &, const OnStep &);
+
+  PERIMORPH_INSTANTIATE(2)
+  PERIMORPH_INSTANTIATE(3)
+#undef PERIMORPH_INSTANTIATE
+} // namespace Perimorph::Application

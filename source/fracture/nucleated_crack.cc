@@ -1,0 +1,300 @@
+#include <perimorph/fracture/crack_tips.h>
+#include <perimorph/fracture/nucleated_crack.h>
+#include <perimorph/mesh/feature_distance.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace Perimorph::Fracture
+{
+  namespace
+  {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+
+    /// How near the tip of a crack, or the surface, an end belongs to it [in
+    /// horizons].
+    constexpr double reach_of_tip     = 1.5;
+    constexpr double reach_of_surface = 1.;
+
+    bool
+    are_next(const BrokenPlace &a, const BrokenPlace &b)
+    {
+      return a.position.distance(b.position) <= std::max(a.horizon, b.horizon);
+    }
+
+    /// Distance along the band from one of its points (Dijkstra).
+    std::vector<double>
+    distances_along(const std::vector<BrokenPlace> &places,
+                    const std::size_t               start)
+    {
+      std::vector<double> distance(places.size(), infinity);
+      std::vector<bool>   done(places.size(), false);
+      distance[start] = 0.;
+      for (std::size_t step = 0; step < places.size(); ++step)
+        {
+          std::size_t nearest = places.size();
+          for (std::size_t k = 0; k < places.size(); ++k)
+            if (!done[k] &&
+                (nearest == places.size() || distance[k] < distance[nearest]))
+              nearest = k;
+          done[nearest] = true;
+          for (std::size_t k = 0; k < places.size(); ++k)
+            if (!done[k] && are_next(places[nearest], places[k]))
+              distance[k] =
+                std::min(distance[k],
+                         distance[nearest] + places[nearest].position.distance(
+                                               places[k].position));
+        }
+      return distance;
+    }
+
+    /// The place at a distance along the band, by a fit of the positions that
+    /// is linear in this distance.
+    dealii::Point<2>
+    fitted_place(const std::vector<BrokenPlace> &places,
+                 const std::vector<double>      &along,
+                 const double                    distance,
+                 const double                    radius)
+    {
+      double           sum = 0., first = 0., second = 0.;
+      dealii::Point<2> mean, moment;
+      for (std::size_t k = 0; k < places.size(); ++k)
+        {
+          const double s = along[k] - distance;
+          const double w = 1. - s * s / (radius * radius);
+          if (w <= 0.)
+            continue;
+          sum += w;
+          first += w * s;
+          second += w * s * s;
+          mean += w * places[k].position;
+          moment += w * s * places[k].position;
+        }
+      const double determinant = sum * second - first * first;
+      if (determinant < 1e-6 * sum * sum * radius * radius)
+        return mean / sum;
+      return dealii::Point<2>((second * mean - first * moment) / determinant);
+    }
+
+    /// Where the ray from a point through another one leaves the body.
+    std::optional<dealii::Point<2>>
+    way_out(const Mesh::NodalMesh<2> &mesh,
+            const dealii::Point<2>   &from,
+            const dealii::Point<2>   &through,
+            const double              more)
+    {
+      const auto   along   = through - from;
+      const double length  = along.norm();
+      double       nearest = infinity;
+      for (const auto &face : mesh.boundary_faces)
+        {
+          const auto  &a    = mesh.nodes[face.nodes[0]];
+          const auto   edge = mesh.nodes[face.nodes[1]] - a, to = a - from;
+          const double cross = along[0] * edge[1] - along[1] * edge[0];
+          if (std::abs(cross) <= 1e-14 * edge.norm() * length)
+            continue;
+          const double t = (to[0] * edge[1] - to[1] * edge[0]) / cross;
+          const double s = (to[0] * along[1] - to[1] * along[0]) / cross;
+          if (t > 0. && s >= 0. && s <= 1.)
+            nearest = std::min(nearest, t);
+        }
+      if (nearest * length > length + more)
+        return std::nullopt;
+      return from + nearest * along;
+    }
+
+    dealii::Point<2>
+    nearest_on_surface(const Mesh::NodalMesh<2> &mesh,
+                       const dealii::Point<2>   &point)
+    {
+      dealii::Point<2> nearest;
+      double           smallest = infinity;
+      for (const auto &face : mesh.boundary_faces)
+        {
+          const auto place =
+            Mesh::closest_on_segment(point,
+                                     mesh.nodes[face.nodes[0]],
+                                     mesh.nodes[face.nodes[1]]);
+          if (place.distance(point) < smallest)
+            {
+              smallest = place.distance(point);
+              nearest  = place;
+            }
+        }
+      return nearest;
+    }
+
+    /// Lets the last point be at a place, without a short piece before it.
+    void
+    end_at(std::vector<dealii::Point<2>> &line,
+           const dealii::Point<2>        &place,
+           const double                   horizon)
+    {
+      line.back() = place;
+      while (line.size() > 2 &&
+             line[line.size() - 2].distance(place) < 0.5 * horizon)
+        line.erase(line.end() - 2);
+    }
+  } // namespace
+
+  std::vector<std::vector<BrokenPlace>>
+  group_places(std::vector<BrokenPlace> places)
+  {
+    std::sort(places.begin(), places.end(), [](const auto &a, const auto &b) {
+      return std::tie(a.position[0], a.position[1], a.horizon) <
+             std::tie(b.position[0], b.position[1], b.horizon);
+    });
+    std::vector<std::vector<BrokenPlace>> groups;
+    std::vector<bool>                     taken(places.size(), false);
+    for (std::size_t start = 0; start < places.size(); ++start)
+      {
+        if (taken[start])
+          continue;
+        std::vector<std::size_t> members = {start};
+        taken[start]                     = true;
+        for (std::size_t next = 0; next < members.size(); ++next)
+          for (std::size_t k = start + 1; k < places.size(); ++k)
+            if (!taken[k] && are_next(places[members[next]], places[k]))
+              {
+                taken[k] = true;
+                members.push_back(k);
+              }
+        std::sort(members.begin(), members.end());
+        groups.emplace_back();
+        for (const std::size_t k : members)
+          groups.back().push_back(places[k]);
+      }
+    return groups;
+  }
+
+  std::vector<dealii::Point<2>>
+  line_through(const std::vector<BrokenPlace> &places)
+  {
+    const auto furthest = [](const std::vector<double> &distance) {
+      return std::max_element(distance.begin(), distance.end()) -
+             distance.begin();
+    };
+    const auto   start  = furthest(distances_along(places, 0));
+    const auto   along  = distances_along(places, start);
+    const double length = along[furthest(along)];
+    if (!(length > 0.))
+      return {};
+    double radius = 0.;
+    for (const auto &place : places)
+      radius += place.horizon / places.size();
+    const auto n =
+      static_cast<unsigned int>(std::max(1., std::round(length / radius)));
+    std::vector<dealii::Point<2>> line;
+    for (unsigned int k = 0; k <= n; ++k)
+      line.push_back(fitted_place(places, along, k * length / n, radius));
+    return line;
+  }
+
+  double
+  length_of_line(const std::vector<dealii::Point<2>> &line)
+  {
+    double length = 0.;
+    for (std::size_t k = 1; k < line.size(); ++k)
+      length += line[k].distance(line[k - 1]);
+    return length;
+  }
+
+  std::vector<dealii::Point<2>>
+  with_end_moved(std::vector<dealii::Point<2>> line, double distance)
+  {
+    while (line.size() > 2 &&
+           line.back().distance(line[line.size() - 2]) + distance <= 0.)
+      {
+        distance += line.back().distance(line[line.size() - 2]);
+        line.pop_back();
+      }
+    const auto piece = line.back() - line[line.size() - 2];
+    line.back() += distance / piece.norm() * piece;
+    return line;
+  }
+
+  std::vector<NucleatedCrack>
+  find_nucleated_cracks(const Mesh::NodalMesh<2> &mesh,
+                        const Bonds::CrackSet<2> &cracks,
+                        std::vector<BrokenPlace>  places)
+  {
+    const auto                  tips = find_tips(mesh, cracks);
+    std::vector<NucleatedCrack> found;
+    for (const auto &group : group_places(std::move(places)))
+      {
+        NucleatedCrack crack;
+        crack.line = line_through(group);
+        if (crack.line.empty())
+          continue;
+        crack.horizon = 0.;
+        for (const auto &place : group)
+          crack.horizon += place.horizon / group.size();
+        auto &line = crack.line;
+        // Tip at the first and the last point; of one tip the nearer end.
+        const auto nearest_tip = [&](const dealii::Point<2> &end) {
+          const CrackTip *nearest = nullptr;
+          double          reach   = reach_of_tip * crack.horizon;
+          for (const auto &tip : tips)
+            if (tip.frame.origin.distance(end) < reach)
+              {
+                reach   = tip.frame.origin.distance(end);
+                nearest = &tip;
+              }
+          return nearest;
+        };
+        std::array<const CrackTip *, 2> tip_at = {
+          {nearest_tip(line.front()), nearest_tip(line.back())}};
+        if (tip_at[0] && tip_at[0] == tip_at[1])
+          tip_at[tip_at[0]->frame.origin.distance(line.front()) <
+                     tip_at[0]->frame.origin.distance(line.back())
+                   ? 1
+                   : 0] = nullptr;
+        for (const unsigned int end : {0u, 1u})
+          {
+            // The end in question is the last point.
+            std::reverse(line.begin(), line.end());
+            crack.is_free[end] = true;
+            const auto last    = line.back();
+            const auto foot    = nearest_on_surface(mesh, last);
+            if (tip_at[end])
+              end_at(line, tip_at[end]->frame.origin, crack.horizon);
+            else if (foot.distance(last) <= reach_of_surface * crack.horizon)
+              end_at(line,
+                     way_out(mesh,
+                             line[line.size() - 2],
+                             last,
+                             reach_of_tip * crack.horizon)
+                       .value_or(foot),
+                     crack.horizon);
+            else
+              continue;
+            crack.is_free[end] = false;
+          }
+        if (crack.is_free[0] && !crack.is_free[1])
+          {
+            std::reverse(line.begin(), line.end());
+            std::swap(crack.is_free[0], crack.is_free[1]);
+            std::swap(tip_at[0], tip_at[1]);
+          }
+        if (tip_at[0])
+          crack.crack = tip_at[0]->crack;
+        found.push_back(crack);
+      }
+    return found;
+  }
+
+  std::vector<dealii::Point<2>>
+  with_tips_moved(const NucleatedCrack &crack, const double distance)
+  {
+    auto line = crack.line;
+    for (const bool is_free : {crack.is_free[1], crack.is_free[0]})
+      {
+        if (is_free)
+          line = with_end_moved(line, distance);
+        std::reverse(line.begin(), line.end());
+      }
+    return line;
+  }
+} // namespace Perimorph::Fracture
