@@ -126,8 +126,8 @@ namespace Perimorph::Application
       hand_over_length,
       "Of growth = bonds in 2D: once broken bonds form a crack of this length "
       "(or in horizons: '3 horizons') it becomes a line, tips where the energy "
-      "changes least, and cracks grow by segments from then on; needs the "
-      "'fracture energy'. New cracks no longer start then. never: bonds only.",
+      "changes least, and cracks grow by segments while they have tips; needs "
+      "the 'fracture energy'. No bond breaks meanwhile. never: bonds only.",
       Anything());
     prm.add_parameter("protected boundaries",
                       protected_boundaries,

@@ -336,8 +336,14 @@ namespace Perimorph::Application
     start_events(method, step, on_newton);
     while (n_events < parameters.growth.maximum_advances)
       {
-        if (hand_over(method, step, on_step))
-          return follow_growth_events(method, on_step, on_newton);
+        if (handed_over || hand_over(method, step, on_step))
+          {
+            const bool complete =
+              follow_growth_events(method, on_step, on_newton);
+            if (!complete || !hand_back())
+              return complete;
+            step = progress.step;
+          }
         auto bonds = next_to_break(method, never);
         if (bonds.empty())
           {
@@ -359,7 +365,7 @@ namespace Perimorph::Application
         step.between     = false;
         const bool holds = break_bonds(method, bonds, step);
         ++step.number;
-        progress.number = n_events;
+        progress.number = n_events + n_advances;
         on_step(step);
         if (!holds)
           return true;
@@ -377,8 +383,13 @@ namespace Perimorph::Application
   {
     while (n_events < parameters.growth.maximum_advances)
       {
-        if (hand_over(method, step, on_step))
-          return grow_cracks(method, step, on_step);
+        if (handed_over || hand_over(method, step, on_step))
+          {
+            if (!grow_cracks(method, step, on_step))
+              return false;
+            if (!hand_back())
+              return true;
+          }
         auto bonds = next_to_break(method, 1.);
         if (bonds.empty())
           return true;

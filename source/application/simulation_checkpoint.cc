@@ -147,6 +147,7 @@ namespace Perimorph::Application
     action("crack at hand-over", hand_over_crack);
     action("event of hand-over", hand_over_event);
     action("solves before hand-over", solves_before);
+    action("solves of segments", segment_solves);
     action("switched energy", switched_energy);
     action("work", work);
     action("counts work", counts_work);

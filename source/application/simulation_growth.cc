@@ -172,7 +172,7 @@ namespace Perimorph::Application
                                        Step         &step,
                                        const OnStep &on_step)
   {
-    if (parameters.growth.bonds && !handed_over)
+    if (parameters.growth.bonds)
       return break_overloaded_bonds(method, step, on_step);
     if (parameters.growth.active)
       return grow_cracks(method, step, on_step);
@@ -362,7 +362,7 @@ namespace Perimorph::Application
         on_step(step);
         step.between = false;
         accept(*advance, method, step);
-        progress.number = n_advances;
+        progress.number = n_events + n_advances;
         on_step(step);
       }
     growth_end = "largest number of advances";

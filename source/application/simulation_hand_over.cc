@@ -1,6 +1,7 @@
 #include <perimorph/application/crack_setup.h>
 #include <perimorph/application/simulation.h>
 #include <perimorph/base/log.h>
+#include <perimorph/fracture/crack_tips.h>
 #include <perimorph/fracture/nucleated_crack.h>
 #include <perimorph/mesh/feature_distance.h>
 
@@ -231,17 +232,15 @@ namespace Perimorph::Application
 
         cracks.append(best_facets);
         name_nucleated_cracks();
-        method           = std::move(*best);
-        handed_over      = true;
-        hand_over_energy = best_change;
+        method      = std::move(*best);
+        handed_over = true;
+        hand_over_energy += best_change;
         switched_energy += best_change;
         count_work(gather(method));
         hand_over_event = n_events;
-        hand_over_crack = 0.;
         for (const auto &facet : best_facets)
           hand_over_crack += facet.measure();
-        solves_before = static_cast<unsigned int>(
-          *result->number("counts", "newton_iterations"));
+        solves_before = n_solves();
         for (const auto &facet : best_facets)
           log << "  broken bonds become crack '"
               << parameters.pre_cracks[facet.crack].name << "': ("
@@ -257,8 +256,32 @@ namespace Perimorph::Application
       return false;
   }
 
-#define PERIMORPH_INSTANTIATE(dim)                        \
-  template void Simulation<dim>::name_nucleated_cracks(); \
+  template <int dim>
+  unsigned int
+  Simulation<dim>::n_solves() const
+  {
+    return static_cast<unsigned int>(
+      *result->number("counts", "newton_iterations"));
+  }
+
+  template <int dim>
+  bool
+  Simulation<dim>::hand_back()
+  {
+    if constexpr (dim == 2)
+      if (!Fracture::find_tips(mesh->nodal(), cracks).empty())
+        return false;
+    if (n_large_parts() > parts_at_start)
+      return false;
+    segment_solves += n_solves() - solves_before;
+    handed_over = false;
+    return true;
+  }
+
+#define PERIMORPH_INSTANTIATE(dim)                                \
+  template bool         Simulation<dim>::hand_back();             \
+  template unsigned int Simulation<dim>::n_solves() const;        \
+  template void         Simulation<dim>::name_nucleated_cracks(); \
   template bool Simulation<dim>::hand_over(Method &, Step &, const OnStep &);
 
   PERIMORPH_INSTANTIATE(2)

@@ -327,21 +327,21 @@ namespace Perimorph::Application
         result->set("growth", "end", growth_end);
         if (parameters.growth.bonds)
           result->set("growth", "events", n_events);
-        if (!parameters.growth.bonds || handed_over)
+        const bool by_segments = hand_over_event > 0;
+        if (!parameters.growth.bonds || by_segments)
           {
             result->set("growth", "advances", n_advances);
             result->set("growth", "crack_growth", grown_length);
           }
-        if (handed_over)
+        if (by_segments)
           {
             result->set("growth", "hand_over_event", hand_over_event);
             result->set("growth", "hand_over_crack_length", hand_over_crack);
             result->set("growth", "hand_over_energy", hand_over_energy);
             result->set("growth",
-                        "solves_after_hand_over",
-                        static_cast<unsigned int>(
-                          *result->number("counts", "newton_iterations")) -
-                          solves_before);
+                        "solves_of_segments",
+                        segment_solves +
+                          (handed_over ? n_solves() - solves_before : 0u));
           }
         result->set("growth", "released_energy", released_energy);
         result->set("growth", "dissipated_energy", dissipated_energy);

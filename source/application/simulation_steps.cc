@@ -41,7 +41,7 @@ namespace Perimorph::Application
     // The companion with finite elements does not grow cracks.
     const bool grows = method.region.n_core > 0;
     if (parameters.growth.events && grows)
-      return parameters.growth.bonds && !handed_over
+      return parameters.growth.bonds
                ? follow_bond_events(method, on_step, on_newton)
                : follow_growth_events(method, on_step, on_newton);
     if (parameters.arc_length)

@@ -13,8 +13,8 @@ namespace Perimorph::Fracture
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    /// How near the tip of a crack, or the surface, an end belongs to it [in
-    /// horizons].
+    /// How near the tip of a crack an end belongs to it, and how near the
+    /// surface bonds may have broken along it [in horizons].
     constexpr double reach_of_tip     = 1.5;
     constexpr double reach_of_surface = 1.;
 
@@ -220,18 +220,25 @@ namespace Perimorph::Fracture
                         const Bonds::CrackSet<2> &cracks,
                         std::vector<BrokenPlace>  places)
   {
-    const auto                  tips = find_tips(mesh, cracks);
+    const auto               tips = find_tips(mesh, cracks);
+    std::vector<BrokenPlace> inside, at_surface;
+    for (const auto &place : places)
+      (place.position.distance(nearest_on_surface(mesh, place.position)) <
+           reach_of_surface * place.horizon
+         ? at_surface
+         : inside)
+        .push_back(place);
     std::vector<NucleatedCrack> found;
-    for (const auto &group : group_places(std::move(places)))
+    for (const auto &group : group_places(std::move(inside)))
       {
         NucleatedCrack crack;
-        crack.line = line_through(group);
-        if (crack.line.empty())
+        auto          &line = crack.line;
+        line                = line_through(group);
+        if (line.empty())
           continue;
         crack.horizon = 0.;
         for (const auto &place : group)
           crack.horizon += place.horizon / group.size();
-        auto &line = crack.line;
         // Tip at the first and the last point; of one tip the nearer end.
         const auto nearest_tip = [&](const dealii::Point<2> &end) {
           const CrackTip *nearest = nullptr;
@@ -255,22 +262,23 @@ namespace Perimorph::Fracture
           {
             // The end in question is the last point.
             std::reverse(line.begin(), line.end());
-            crack.is_free[end] = true;
-            const auto last    = line.back();
-            const auto foot    = nearest_on_surface(mesh, last);
+            const auto   last  = line.back();
+            const double reach = reach_of_tip * crack.horizon;
+            crack.is_free[end] =
+              !tip_at[end] &&
+              std::none_of(at_surface.begin(),
+                           at_surface.end(),
+                           [&](const auto &place) {
+                             return place.position.distance(last) < reach;
+                           });
             if (tip_at[end])
               end_at(line, tip_at[end]->frame.origin, crack.horizon);
-            else if (foot.distance(last) <= reach_of_surface * crack.horizon)
-              end_at(line,
-                     way_out(mesh,
-                             line[line.size() - 2],
-                             last,
-                             reach_of_tip * crack.horizon)
-                       .value_or(foot),
-                     crack.horizon);
-            else
-              continue;
-            crack.is_free[end] = false;
+            else if (!crack.is_free[end])
+              end_at(
+                line,
+                way_out(mesh, line[line.size() - 2], last, 2. * reach)
+                  .value_or(dealii::Point<2>(nearest_on_surface(mesh, last))),
+                crack.horizon);
           }
         if (crack.is_free[0] && !crack.is_free[1])
           {

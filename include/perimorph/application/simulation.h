@@ -265,12 +265,19 @@ namespace Perimorph::Application
                 const std::vector<BondLoad> &bonds,
                 const Step                  &step);
     /// Makes cracks of the bonds that broke, once the longest of them reaches
-    /// 'hand over length': from then on cracks grow by segments. Tips are put
-    /// where the potential energy at fixed loads changes least; the change
+    /// 'hand over length': they grow by segments while they have tips. Tips are
+    /// put where the potential energy at fixed loads changes least; the change
     /// counts as switched_energy. on_step gets the state after.
     /// @return  whether it did
     bool
     hand_over(Method &method, Step &step, const OnStep &on_step);
+    /// Whether cracks that were handed over grow by segments no longer, so that
+    /// new ones start from bonds.
+    bool
+    hand_back();
+    /// Newton iterations of the run so far.
+    unsigned int
+    n_solves() const;
     /// Names cracks that came from bonds.
     void
     name_nucleated_cracks();
@@ -389,7 +396,7 @@ namespace Perimorph::Application
     bool         handed_over = false;
     unsigned int n_nucleated = 0;
     double hand_over_energy = 0., hand_over_crack = 0.; ///< change, length
-    unsigned int hand_over_event = 0, solves_before = 0;
+    unsigned int hand_over_event = 0, solves_before = 0, segment_solves = 0;
 
     // Work of loads and supports, by the trapezoidal rule between states.
     State<dim> last_state;

@@ -50,9 +50,10 @@ namespace Perimorph::Fracture
     std::optional<unsigned int> crack;   ///< that it continues, from its tip
   };
 
-  /// Groups of broken bonds as cracks. An end within one and a half horizons of
-  /// a tip of the cracks starts there; one within a horizon of the surface goes
-  /// on to it. Free ends come last.
+  /// Groups of broken bonds as cracks. Bonds within a horizon of the surface
+  /// break along it, too, and count only as a sign that a crack with an end
+  /// within one and a half horizons of them goes on to the surface. An end so
+  /// near a tip of the cracks starts there. Free ends come last.
   std::vector<NucleatedCrack>
   find_nucleated_cracks(const Mesh::NodalMesh<2> &mesh,
                         const Bonds::CrackSet<2> &cracks,

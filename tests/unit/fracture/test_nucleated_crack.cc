@@ -197,6 +197,21 @@ namespace Perimorph::Fracture
     EXPECT_FALSE(found[0].crack);
   }
 
+  TEST(NucleatedCrack, bonds_along_the_surface_are_no_crack)
+  {
+    const auto mesh   = Testing::unit_mesh<2>(50);
+    auto       places = band({{.99, .3}, {.99, .7}});
+    EXPECT_TRUE(find_nucleated_cracks(mesh, {}, places).empty());
+    const auto crack = band({{.98, .5}, {.7, .5}});
+    places.insert(places.end(), crack.begin(), crack.end());
+    const auto found = find_nucleated_cracks(mesh, {}, places);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_FALSE(found[0].is_free[0]);
+    EXPECT_LT(found[0].line.front().distance({1., .5}), .5 * h);
+    for (const auto &point : found[0].line)
+      EXPECT_NEAR(point[1], .5, .5 * h);
+  }
+
   TEST(NucleatedCrack, small_group_takes_a_tip_with_one_end_only)
   {
     const auto               mesh = Testing::unit_mesh<2>(50);
