@@ -288,7 +288,7 @@ namespace Perimorph::Application
         << " at load factor " << method.time << std::endl;
     const bool falls_apart = n_parts(next, state) > parts_at_start;
     result->set("counts", "events", n_events);
-    result->set("counts", "bonds_broken_in_events", broken.size());
+    result->set("counts", "bonds_broken_in_events", broken.size() + n_replaced);
     result->set("counts",
                 "isolated_particles",
                 next.problem->counts().isolated);

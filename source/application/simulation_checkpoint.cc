@@ -117,6 +117,9 @@ namespace Perimorph::Application
     const std::vector<std::pair<std::string, std::string>> result_numbers = {
       {"counts", "newton_iterations"},
       {"counts", "linear_iterations"},
+      {"counts", "events"},
+      {"counts", "bonds_broken_in_events"},
+      {"counts", "isolated_particles"},
       {"checks", "imbalance"},
       {"checks", "energy_balance"}};
   } // namespace
@@ -146,6 +149,7 @@ namespace Perimorph::Application
     action("energy of hand-over", hand_over_energy);
     action("crack at hand-over", hand_over_crack);
     action("event of hand-over", hand_over_event);
+    action("bonds replaced", n_replaced);
     action("solves before hand-over", solves_before);
     action("solves of segments", segment_solves);
     action("switched energy", switched_energy);

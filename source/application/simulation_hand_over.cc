@@ -15,7 +15,7 @@ namespace Perimorph::Application
   {
     /// Broken and softened bonds so near the line of a crack are replaced by it
     /// [in horizons].
-    constexpr double replaced_within = 2.;
+    constexpr double replaced_within = 2.01;
 
     /// The free ends may move so far from where the bonds end [in horizons].
     constexpr double largest_move = 1.5;
@@ -131,24 +131,26 @@ namespace Perimorph::Application
           broken_places(nodal, horizon, broken));
         // Cracks at both sides of a hole grow in turns: those of half the
         // length come along.
-        double     longest = 0.;
-        const auto share   = [&](const Fracture::NucleatedCrack &crack) {
+        constexpr double enough  = 1. - 1e-6; // round-off must not decide
+        double           longest = 0.;
+        const auto       share   = [&](const Fracture::NucleatedCrack &crack) {
           return Fracture::length_of_line(crack.line) /
                  (growth.hand_over->in_horizons
-                      ? growth.hand_over->value * crack.horizon
-                      : std::max(growth.hand_over->value, crack.horizon));
+                            ? growth.hand_over->value * crack.horizon
+                            : std::max(growth.hand_over->value, crack.horizon));
         };
-        made.erase(
-          std::remove_if(made.begin(),
-                         made.end(),
-                         [&](const auto &crack) {
-                           longest = crack.is_free[1]
-                                       ? std::max(longest, share(crack))
-                                       : longest;
-                           return !crack.is_free[1] || share(crack) < 0.5;
-                         }),
-          made.end());
-        if (longest < 1.)
+        made.erase(std::remove_if(made.begin(),
+                                  made.end(),
+                                  [&](const auto &crack) {
+                                    longest =
+                                      crack.is_free[1]
+                                        ? std::max(longest, share(crack))
+                                        : longest;
+                                    return !crack.is_free[1] ||
+                                           share(crack) < 0.5 * enough;
+                                  }),
+                   made.end());
+        if (longest < enough)
           return false;
 
         auto wider          = parameters.region;
@@ -215,8 +217,10 @@ namespace Perimorph::Application
         while (at_low * at_high < 0. && n < most_solutions &&
                std::abs(best_change) > precision * scale)
           {
-            const double middle =
-              (low * at_high - high * at_low) / (at_high - at_low);
+            // Rounded, so that it is the same on any number of ranks.
+            const double middle = std::round((low * at_high - high * at_low) /
+                                             (at_high - at_low) * 4096.) /
+                                  4096.;
             const double value = change(middle);
             ++n;
             if (value * at_high < 0.)
@@ -238,6 +242,7 @@ namespace Perimorph::Application
         switched_energy += best_change;
         count_work(gather(method));
         hand_over_event = n_events;
+        n_replaced += all.size() - broken.size();
         for (const auto &facet : best_facets)
           hand_over_crack += facet.measure();
         solves_before = n_solves();

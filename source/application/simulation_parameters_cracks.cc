@@ -235,11 +235,14 @@ namespace Perimorph::Application
   {
     if (texts.hand_over_length == "never")
       return;
-    const std::string entry = "Cracks / hand over length";
-    const std::string found = "'" + texts.hand_over_length + "'";
+    const std::string entry    = "Cracks / hand over length";
+    const std::string found    = "'" + texts.hand_over_length + "'";
+    const auto        n_errors = errors.size();
     const auto        length =
       Parameters::parse_length(entry, texts.hand_over_length, false, errors);
     growth.hand_over = length;
+    if (errors.size() > n_errors)
+      return;
     if (!growth.bonds)
       errors.add_parameter(entry,
                            found + " with growth '" + texts.crack_growth + "'",

@@ -14,14 +14,20 @@ namespace Perimorph::Fracture
     constexpr double infinity = std::numeric_limits<double>::infinity();
 
     /// How near the tip of a crack an end belongs to it, and how near the
-    /// surface bonds may have broken along it [in horizons].
-    constexpr double reach_of_tip     = 1.5;
-    constexpr double reach_of_surface = 1.;
+    /// surface bonds may have broken along it [in horizons]. No multiples of
+    /// half the spacing: round-off must not decide on regular meshes.
+    constexpr double reach_of_tip     = 1.51;
+    constexpr double reach_of_surface = 1.01;
+
+    /// Of places in one group, and of an end that takes others' place.
+    constexpr double reach_of_place = 1.01;
+    constexpr double shortest_piece = 0.51;
 
     bool
     are_next(const BrokenPlace &a, const BrokenPlace &b)
     {
-      return a.position.distance(b.position) <= std::max(a.horizon, b.horizon);
+      return a.position.distance(b.position) <=
+             reach_of_place * std::max(a.horizon, b.horizon);
     }
 
     /// Distance along the band from one of its points (Dijkstra).
@@ -134,7 +140,7 @@ namespace Perimorph::Fracture
     {
       line.back() = place;
       while (line.size() > 2 &&
-             line[line.size() - 2].distance(place) < 0.5 * horizon)
+             line[line.size() - 2].distance(place) < shortest_piece * horizon)
         line.erase(line.end() - 2);
     }
   } // namespace
@@ -264,6 +270,11 @@ namespace Perimorph::Fracture
             std::reverse(line.begin(), line.end());
             const auto   last  = line.back();
             const double reach = reach_of_tip * crack.horizon;
+            // The direction at an end is that of a long piece.
+            auto base = line.front();
+            for (const auto &point : line)
+              if (point.distance(last) >= reach)
+                base = point;
             crack.is_free[end] =
               !tip_at[end] &&
               std::none_of(at_surface.begin(),
@@ -276,7 +287,7 @@ namespace Perimorph::Fracture
             else if (!crack.is_free[end])
               end_at(
                 line,
-                way_out(mesh, line[line.size() - 2], last, 2. * reach)
+                way_out(mesh, base, last, 2. * reach)
                   .value_or(dealii::Point<2>(nearest_on_surface(mesh, last))),
                 crack.horizon);
           }

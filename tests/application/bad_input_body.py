@@ -422,6 +422,37 @@ BREAKING = [
         "a 'critical stretch'"], BONDS,
         {"Cracks/criterion": "critical stretch",
          "Cracks/critical stretch": "0.01"}),
+    row("hand-over of cracks that grow by segments", [
+        "'Cracks / hand over length'", "'2 horizons' with growth 'segments'",
+        "growth = bonds"], {"Cracks/pre-cracks": "edge: 0 0.5 to 0.5 0.5",
+                            "Cracks/growth": "segments",
+                            "Cracks/fracture energy": "1",
+                            "Cracks/hand over length": "2 horizons"}),
+    row("hand-over without growth", [
+        "'Cracks / hand over length'", "with growth 'none'"],
+        {"Cracks/hand over length": "2 horizons"}),
+    row("hand-over of single bonds", [
+        "'Cracks / hand over length'", "'0.5 horizons'", "'1 horizons'"],
+        BONDS, {"Cracks/hand over length": "0.5 horizons"}),
+    row("hand-over at no length", [
+        "'Cracks / hand over length'", "'0'", "never"],
+        BONDS, {"Cracks/hand over length": "0"}),
+    row("hand-over that is no length", [
+        "'Cracks / hand over length'", "'later'", "2 horizons"],
+        BONDS, {"Cracks/hand over length": "later"}),
+    row("hand-over in 3D", [
+        "'Cracks / hand over length'", "in 3D", "never"], SOLID,
+        BONDS, {"Cracks/hand over length": "2 horizons"}),
+    row("hand-over with blended energies", [
+        "'Cracks / hand over length'", "with coupling 'energy blending'",
+        "coupling = consistent"], BONDS,
+        {"Peridynamics/coupling": "energy blending",
+         "Cracks/hand over length": "2 horizons"}),
+    row("hand-over without a fracture energy", [
+        "'Cracks / fracture energy'", "nothing or 0", "hand over length"],
+        {"Cracks/growth": "bonds", "Cracks/criterion": "critical stretch",
+         "Cracks/critical stretch": "0.01",
+         "Cracks/hand over length": "2 horizons"}),
     row("neither stretch nor fracture energy", [
         "'Cracks / fracture energy'", "nothing or 0", "give a 'critical "
         "stretch'"], {"Cracks/growth": "bonds",

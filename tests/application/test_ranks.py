@@ -22,6 +22,8 @@ TWO_ADVANCES = "Cracks/maximum advances=2"
 ADVANCES = "Cracks/maximum advances=4"
 LOAD_STEPS = ["Cracks/growth control=load steps", "Load steps/end time=1.3"]
 BONDS = ["Cracks/growth=bonds"]
+HAND_OVER = ["Cracks/hand over length=1 horizons",
+             "Cracks/advance length=0.25 horizons"]
 WITH_REACTIONS = "Quantities/reaction=left, bottom"
 
 # name, parameter file, overrides, ghost forces are expected
@@ -66,6 +68,11 @@ CASES = [
     ("growth bond by bond, bond based", "edge_crack_growth.prm",
      [STRIP, "Cracks/maximum advances=8", "Peridynamics/model=bond based"] +
      BONDS, False),
+    ("bonds, then segments", "edge_crack_growth.prm",
+     [STRIP, "Cracks/maximum advances=14"] + HAND_OVER + BONDS, False),
+    ("bonds, then segments in load steps", "edge_crack_growth.prm",
+     [STRIP, "Cracks/maximum advances=14"] + HAND_OVER + BONDS + LOAD_STEPS,
+     False),
     ("growth bond by bond in load steps", "edge_crack_growth.prm",
      [STRIP, ADVANCES] + BONDS + LOAD_STEPS, False),
 ]
@@ -155,6 +162,8 @@ def compare_growth(failures, ranks, one, many):
         for row, other in zip(*tables):
             for column, text in row.items():
                 if column in ("crack", "energy_of_core_growth"):
+                    continue
+                if text == other[column] == "":  # J of a tip without room
                     continue
                 value, second = float(text), float(other[column])
                 failures.check(

@@ -85,6 +85,14 @@ CASES = [
         "Cracks/growth control": "events",
         "Cracks/maximum advances": "5",
     }), (1, 8)),
+    # Killed before, at or behind the hand-over in row 15.
+    ("bonds, then segments, by events", dict(STRIP, **{
+        "Cracks/growth": "bonds",
+        "Cracks/growth control": "events",
+        "Cracks/hand over length": "1 horizons",
+        "Cracks/advance length": "0.5 horizons",
+        "Cracks/maximum advances": "8",
+    }), (1, 28)),
     ("bonds that soften by events", dict(STRIP, **{
         "Cracks/growth": "bonds",
         "Cracks/growth control": "events",

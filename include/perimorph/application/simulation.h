@@ -397,6 +397,7 @@ namespace Perimorph::Application
     unsigned int n_nucleated = 0;
     double hand_over_energy = 0., hand_over_crack = 0.; ///< change, length
     unsigned int hand_over_event = 0, solves_before = 0, segment_solves = 0;
+    std::size_t  n_replaced = 0; ///< bonds that broke and lie at cracks now
 
     // Work of loads and supports, by the trapezoidal rule between states.
     State<dim> last_state;

@@ -16,9 +16,9 @@ namespace Perimorph::Fracture
     double           horizon;
   };
 
-  /// Points in groups, each of points no further apart from the next than the
-  /// larger of their horizons. Sorted by position, so that the order of the
-  /// input does not matter.
+  /// Points in groups, each of points no further apart from the next than 1.01
+  /// times the larger of their horizons. Sorted by position, so that the order
+  /// of the input does not matter.
   std::vector<std::vector<BrokenPlace>>
   group_places(std::vector<BrokenPlace> places);
 
