@@ -17,8 +17,8 @@ namespace Perimorph::Application
     /// [in horizons].
     constexpr double replaced_within = 2.01;
 
-    /// The free ends may move so far from where the bonds end [in horizons].
-    constexpr double largest_move = 1.5;
+    /// Changes of energy so small are small enough [of the strain energy].
+    constexpr double precision = 1e-4;
 
     Fracture::BrokenPlace
     middle_of(const Mesh::NodalMesh<2>          &mesh,
@@ -40,6 +40,32 @@ namespace Perimorph::Application
         if (bond.teeth == broken.n_teeth())
           places.push_back(middle_of(mesh, horizon, bond.nodes));
       return places;
+    }
+
+    /// The cracks with tips once one has the length, at least a horizon. Cracks
+    /// at both sides of a hole grow in turns: those of half the length come
+    /// along.
+    std::vector<Fracture::NucleatedCrack>
+    long_enough(const std::vector<Fracture::NucleatedCrack> &all,
+                const Parameters::Length                    &length)
+    {
+      constexpr double enough = 1. - 1e-6; // round-off must not decide
+      std::vector<Fracture::NucleatedCrack> found;
+      double                                longest = 0.;
+      for (const auto &crack : all)
+        {
+          const double share =
+            Fracture::length_of_line(crack.line) /
+            (length.in_horizons ? length.value * crack.horizon
+                                : std::max(length.value, crack.horizon));
+          if (!crack.is_free[1] || share < 0.5 * enough)
+            continue;
+          longest = std::max(longest, share);
+          found.push_back(crack);
+        }
+      if (longest < enough)
+        found.clear();
+      return found;
     }
 
     /// The bonds that stay broken.
@@ -125,32 +151,12 @@ namespace Perimorph::Application
           return false;
         const auto &nodal   = mesh->nodal();
         const auto  horizon = method.region.horizon;
-        auto        made    = Fracture::find_nucleated_cracks(
-          nodal,
-          cracks,
-          broken_places(nodal, horizon, broken));
-        // Cracks at both sides of a hole grow in turns: those of half the
-        // length come along.
-        constexpr double enough  = 1. - 1e-6; // round-off must not decide
-        double           longest = 0.;
-        const auto       share   = [&](const Fracture::NucleatedCrack &crack) {
-          return Fracture::length_of_line(crack.line) /
-                 (growth.hand_over->in_horizons
-                            ? growth.hand_over->value * crack.horizon
-                            : std::max(growth.hand_over->value, crack.horizon));
-        };
-        made.erase(std::remove_if(made.begin(),
-                                  made.end(),
-                                  [&](const auto &crack) {
-                                    longest =
-                                      crack.is_free[1]
-                                        ? std::max(longest, share(crack))
-                                        : longest;
-                                    return !crack.is_free[1] ||
-                                           share(crack) < 0.5 * enough;
-                                  }),
-                   made.end());
-        if (longest < enough)
+        const auto  made    = long_enough(Fracture::find_nucleated_cracks(
+                                        nodal,
+                                        cracks,
+                                        broken_places(nodal, horizon, broken)),
+                                      *growth.hand_over);
+        if (made.empty())
           return false;
 
         auto wider          = parameters.region;
@@ -183,7 +189,6 @@ namespace Perimorph::Application
         const double scale  = gather(method).strain_energy;
         broken = without_those_at(nodal, method.region.horizon, made, all);
 
-        // Illinois' method for the move of the tips that keeps the energy.
         std::optional<Method>             best;
         std::vector<Bonds::CrackFacet<2>> best_facets;
         double     best_change = std::numeric_limits<double>::infinity();
@@ -199,39 +204,21 @@ namespace Perimorph::Application
             }
           return value;
         };
-        constexpr double       precision      = 1e-4;
-        constexpr unsigned int most_solutions = 8;
-        double                 low = 0., high = 0.;
-        double                 at_low = change(0.), at_high = at_low;
-        const double           way = at_low > 0. ? 0.5 : -0.5;
-        unsigned int           n   = 1;
-        while (at_low * at_high > 0. &&
-               std::abs(high + way) <= largest_move + 1e-12)
+        unsigned int n = 0;
+        try
           {
-            low     = high;
-            at_low  = at_high;
-            high    = high + way;
-            at_high = change(high);
-            ++n;
+            n = Fracture::try_moves(change, precision * scale);
           }
-        while (at_low * at_high < 0. && n < most_solutions &&
-               std::abs(best_change) > precision * scale)
+        catch (const Base::SolveError &error)
           {
-            // Rounded, so that it is the same on any number of ranks.
-            const double middle = std::round((low * at_high - high * at_low) /
-                                             (at_high - at_low) * 4096.) /
-                                  4096.;
-            const double value = change(middle);
-            ++n;
-            if (value * at_high < 0.)
-              {
-                low    = high;
-                at_low = at_high;
-              }
-            else
-              at_low *= 0.5;
-            high    = middle;
-            at_high = value;
+            broken = all;
+            log << "  no hand-over: " << error.what() << std::endl;
+            return false;
+          }
+        catch (const Base::InputError &)
+          {
+            broken = all; // moved out of the body
+            return false;
           }
 
         cracks.append(best_facets);

@@ -216,8 +216,9 @@ namespace Perimorph::Fracture
         distance += line.back().distance(line[line.size() - 2]);
         line.pop_back();
       }
-    const auto piece = line.back() - line[line.size() - 2];
-    line.back() += distance / piece.norm() * piece;
+    const auto   piece  = line.back() - line[line.size() - 2];
+    const double length = piece.norm();
+    line.back() += std::max(distance, -0.9 * length) / length * piece;
     return line;
   }
 
@@ -302,6 +303,45 @@ namespace Perimorph::Fracture
         found.push_back(crack);
       }
     return found;
+  }
+
+  unsigned int
+  try_moves(const std::function<double(double)> &change, const double precision)
+  {
+    constexpr double       step = 0.5, largest = 1.5;
+    constexpr unsigned int most_calls = 8;
+    double                 low = 0., high = 0.;
+    double                 at_low = change(0.), at_high = at_low;
+    const double           way     = at_low > 0. ? step : -step;
+    unsigned int           n_calls = 1;
+    while (at_low * at_high > 0. && std::abs(high) < largest &&
+           std::abs(at_high) > precision)
+      {
+        low     = high;
+        at_low  = at_high;
+        high    = high + way;
+        at_high = change(high);
+        ++n_calls;
+      }
+    while (at_low * at_high < 0. && n_calls < most_calls &&
+           std::abs(at_high) > precision)
+      {
+        const double middle = std::round((low * at_high - high * at_low) /
+                                         (at_high - at_low) * 4096.) /
+                              4096.;
+        const double value = change(middle);
+        ++n_calls;
+        if (value * at_high < 0.)
+          {
+            low    = high;
+            at_low = at_high;
+          }
+        else
+          at_low *= 0.5;
+        high    = middle;
+        at_high = value;
+      }
+    return n_calls;
   }
 
   std::vector<dealii::Point<2>>

@@ -75,6 +75,7 @@ def strip(study, model, m, mesh, change, length, events):
     study.below("change of energy", change_of_energy(solution), change)
     study.below("energy balance", solution["energy_balance"], 1e-8)
     loads = table["load_factor"]
+    study.note("load factor of the first advance %.4g" % loads[0])
     starts = [x - l for x, l in zip(table["x"], table["length"])]
     # Three advances that begin before a = .85, to which -dE1/da is known.
     worst = 0.

@@ -4,6 +4,7 @@
 #include <perimorph/mesh/nodal_mesh.h>
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -35,8 +36,8 @@ namespace Perimorph::Fracture
   double
   length_of_line(const std::vector<dealii::Point<2>> &line);
 
-  /// Moves the last point of a line along it: back, dropping pieces, or forth
-  /// in the direction of the last piece.
+  /// Moves the last point of a line along it: back, dropping pieces but for a
+  /// tenth of the first one, or forth in the direction of the last piece.
   std::vector<dealii::Point<2>>
   with_end_moved(std::vector<dealii::Point<2>> line, double distance);
 
@@ -58,6 +59,16 @@ namespace Perimorph::Fracture
   find_nucleated_cracks(const Mesh::NodalMesh<2> &mesh,
                         const Bonds::CrackSet<2> &cracks,
                         std::vector<BrokenPlace>  places);
+
+  /// Looks for a move of tips (from -1.5 to 1.5 [horizons]) that changes an
+  /// energy least: from where the bonds end in steps of a half while the change
+  /// keeps its sign, then by Illinois' method to the precision, in eight
+  /// solutions at most: where bonds are cut column by column there is no zero.
+  /// Moves are rounded to 1/4096: round-off does not change them.
+  /// @param change  of the energy by a move; larger moves release energy
+  /// @return  number of calls
+  unsigned int
+  try_moves(const std::function<double(double)> &change, double precision);
 
   /// The line with its free ends moved.
   std::vector<dealii::Point<2>>

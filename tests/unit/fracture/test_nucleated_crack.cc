@@ -140,12 +140,48 @@ namespace Perimorph::Fracture
     const auto shorter = with_end_moved(line, -1.5);
     ASSERT_EQ(shorter.size(), 2u);
     EXPECT_NEAR(shorter.back().distance({.5, 0.}), 0., 1e-15);
+    // Something is left.
+    EXPECT_NEAR(length_of_line(with_end_moved(line, -5.)), .1, 1e-14);
     NucleatedCrack crack{line, {{true, true}}, horizon, {}};
     EXPECT_NEAR(length_of_line(with_tips_moved(crack, .5)), 3., 1e-15);
     EXPECT_EQ(with_tips_moved(crack, .5).front(), Point(-.5, 0.));
     crack.is_free[0] = false;
     EXPECT_EQ(with_tips_moved(crack, -.25).front(), line.front());
     EXPECT_EQ(with_tips_moved(crack, -.25).back(), Point(1., .75));
+  }
+
+  TEST(NucleatedCrack, moves_that_keep_the_energy)
+  {
+    const auto best = [](const auto &energy) {
+      double found = 1e300, move = 0.;
+      EXPECT_LE(try_moves(
+                  [&](const double x) {
+                    const double value = energy(x);
+                    if (std::abs(value) < std::abs(found))
+                      {
+                        found = value;
+                        move  = x;
+                      }
+                    return value;
+                  },
+                  1e-4),
+                8u);
+      return std::make_pair(move, found);
+    };
+    for (const double root : {-1.3, -.2, 0., .7})
+      {
+        const auto [move, value] =
+          best([&](const double x) { return .1 * (std::exp(root - x) - 1.); });
+        EXPECT_LT(std::abs(value), 1e-4) << root;
+        EXPECT_NEAR(move, root, 2e-3);
+      }
+    // Columns of bonds: the nearer one of two steps.
+    const auto steps = [](const double x) {
+      return -.03 * std::floor(4. * x) - .04;
+    };
+    EXPECT_NEAR(best(steps).second, -.01, 1e-14);
+    // No zero in reach: the end of it.
+    EXPECT_EQ(best([](const double x) { return -x - 2.; }).first, -1.5);
   }
 
   TEST(NucleatedCrack, both_ends_inside_of_the_body)
