@@ -2,7 +2,8 @@
 
 Edge crack in the strip of test_bond_breaking.py, whose -dE1/da gives the load
 of Griffith, and a plate with a hole, whose cracks start at both sides of it, one
-after the other. Limits of the acceptance: mean load of three advances within
+after the other, and a body force that tears a plate in its middle: two tips.
+Limits of the acceptance: mean load of three advances within
 4 % of Griffith, path within 1 h (0.9 h bond based, from the start of the
 segments), balance 1e-8; change of energy at the hand-over below 1e-3 of the
 strain energy on unstructured meshes (on rows it goes in steps of one column of
@@ -24,6 +25,13 @@ STRIPS = [
     ("correspondence", 2, "uniform", 1e-2, 3, 100),
     ("bond based", 2, "unstructured", 1e-3, 2, 150),
 ]
+SQUARE = """SetFactory("OpenCASCADE");
+Rectangle(1) = {-25, -25, 0, 50, 50};
+Mesh.MeshSizeMin = 1; Mesh.MeshSizeMax = 1;
+Mesh.Algorithm = 6; Mesh.RecombinationAlgorithm = 3; Mesh.RecombineAll = 1;
+Physical Surface("body") = {1};
+Physical Curve("bottom") = {1}; Physical Curve("top") = {3};
+"""
 HOLE = """SetFactory("OpenCASCADE");
 Rectangle(1) = {-25, -25, 0, 50, 50}; Disk(2) = {0, 0, 0, 5, 5};
 BooleanDifference(3) = { Surface{1}; Delete; }{ Surface{2}; Delete; };
@@ -133,6 +141,42 @@ def main():
             study.above("end of the path", max(side * x for x, _ in ends), 25.)
             study.below("distance from the axis over the horizon",
                         max(abs(y) for _, y in ends) / 2., 1.)
+
+    if study.part("inner crack with two tips"):
+        solution = solve(
+            study, {
+                "Material/Young's modulus": "192e3",
+                "Material/Poisson's ratio": "0.33",
+                "Material/state": "plane stress",
+                "Peridynamics/around": "point 0 0",
+                "Cracks/growth": "bonds",
+                "Cracks/growth control": "events",
+                "Cracks/hand over length": "3 horizons",
+                "Cracks/fracture energy": "110",
+                "Cracks/maximum advances": "40",
+                "Boundary conditions/displacement":
+                "top: x = 0, y = 0; bottom: x = 0, y = 0",
+                "Boundary conditions/body force":
+                "y = 200*t*y*exp(-(x^2 + y^2)/30)",
+            }, SQUARE)
+        table = solution.table("crack_growth")
+        study.below("change of energy", change_of_energy(solution), 1e-3)
+        study.below("energy balance", solution["energy_balance"], 1e-8)
+        study.below("distance from the axis over the horizon",
+                    max(map(abs, table["y"])) / 2., 1.)
+        # Both tips go on in turns, as far as the body is symmetric.
+        reached = {-1.: 0., 1.: 0.}
+        difference = 0.
+        for x in table["x"]:
+            if abs(x) < 20.:
+                reached[math.copysign(1., x)] = abs(x)
+                if min(reached.values()) > 0.:
+                    difference = max(difference,
+                                     abs(reached[1.] - reached[-1.]))
+        study.above("reached on the left", reached[-1.], 15.)
+        study.above("reached on the right", reached[1.], 15.)
+        study.below("difference of both sides in advances", difference / 2.,
+                    1.5)
     study.finish()
 
 
