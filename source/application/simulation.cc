@@ -1,6 +1,8 @@
 #include <perimorph/application/checkpoint.h>
+#include <perimorph/application/crack_setup.h>
 #include <perimorph/application/simulation.h>
 #include <perimorph/base/collective.h>
+#include <perimorph/base/label_sizes.h>
 #include <perimorph/base/log.h>
 #include <perimorph/base/point_cloud.h>
 #include <perimorph/base/progress.h>
@@ -136,6 +138,29 @@ namespace Perimorph::Application
   }
 
   template <int dim>
+  std::vector<unsigned int>
+  Simulation<dim>::nodes_cut_off(const Bonds::CrackSet<dim> &cracks) const
+  {
+    // Loads move them without end: no springs must hide that.
+    if (cracks.empty() || !parameters.growth.active || !loads->empty())
+      return {};
+    const auto        parts   = parts_of_body(mesh->nodal(), cracks);
+    const auto       &pieces  = mesh->pieces();
+    const auto        n_parts = Base::label_sizes(parts).size();
+    std::vector<bool> is_loose(n_parts, false);
+    if (n_parts == Base::label_sizes(pieces).size())
+      return {};
+    for (const auto &motion :
+         Fem::free_motions(mesh->nodal(), parts, *supports))
+      is_loose[motion.piece] = true;
+    std::vector<unsigned int> nodes;
+    for (unsigned int n = 0; n < parts.size(); ++n)
+      if (is_loose[parts[n]])
+        nodes.push_back(n);
+    return nodes;
+  }
+
+  template <int dim>
   typename Simulation<dim>::Method
   Simulation<dim>::make_method(const Mesh::RegionMap      &region,
                                const Bonds::CrackSet<dim> &cracks,
@@ -162,7 +187,8 @@ namespace Perimorph::Application
         supports->coupled_nodes(),
         cracks,
         broken,
-        std::move(shared));
+        std::move(shared),
+        nodes_cut_off(cracks));
     }
     method.equilibrium = std::make_unique<Solvers::Equilibrium<dim>>(
       *mesh,

@@ -145,7 +145,8 @@ namespace Perimorph::Coupling
                                       std::vector<unsigned int>   more_nodes,
                                       const Bonds::CrackSet<dim> &cracks,
                                       const Bonds::BrokenBonds   &broken,
-                                      SharedParts<dim>            shared)
+                                      SharedParts<dim>            shared,
+                                      const std::vector<unsigned int> &loose)
     : mesh(mesh)
     , materials(materials)
     , more_nodes(std::move(more_nodes))
@@ -162,6 +163,8 @@ namespace Perimorph::Coupling
     else
       make_bonds(region, parameters, cracks, broken, progress);
 
+    if (!loose.empty())
+      ground(loose);
     if (!parts_to_share.all_cells || !parts_to_share.all_cells->is_linear())
       parts_to_share.all_cells =
         std::make_shared<Fem::ElasticCells<dim>>(mesh.nodal(),
@@ -258,22 +261,33 @@ namespace Perimorph::Coupling
       return;
     const unsigned int largest =
       std::max_element(size.begin(), size.end()) - size.begin();
-    // 1e-11 of the diagonal of the stiffness (numerics-damage.md, section 5).
-    double                    mean_spacing = 0.;
     std::vector<unsigned int> loose;
     for (unsigned int n = 0; n < parts.size(); ++n)
-      {
-        mean_spacing += mesh.nodal().spacing[n] / parts.size();
-        // A part of one node has no stiffness, not even if none is larger.
-        if ((parts[n] != largest || size[largest] == 1 ||
-             (!more.empty() && more[n])) &&
-            mesh.nodal().owns_node(n))
-          loose.push_back(partition().local(n));
-      }
+      // A part of one node has no stiffness, not even if none is larger.
+      if (parts[n] != largest || size[largest] == 1 ||
+          (!more.empty() && more[n]))
+        loose.push_back(n);
+    ground(loose);
+  }
+
+  template <int dim>
+  void
+  CoupledProblem<dim>::ground(const std::vector<unsigned int> &nodes)
+  {
+    // 1e-11 of the diagonal of the stiffness (numerics-damage.md, section 5).
+    constexpr double share = 1e-11;
+    const auto      &nodal = mesh.nodal();
+    const double     spacing =
+      std::accumulate(nodal.spacing.begin(), nodal.spacing.end(), 0.) /
+      nodal.n_nodes();
+    std::vector<unsigned int> owned;
+    for (const unsigned int n : nodes)
+      if (nodal.owns_node(n))
+        owned.push_back(partition().local(n));
     contributions.push_back(std::make_unique<GroundingTerm<dim>>(
-      std::move(loose),
-      1e-11 * constants_at_rest(*materials.laws[0]).youngs_modulus *
-        std::pow(mean_spacing, dim - 2)));
+      std::move(owned),
+      share * constants_at_rest(*materials.laws[0]).youngs_modulus *
+        std::pow(spacing, dim - 2)));
   }
 
   template <int dim>
@@ -447,7 +461,8 @@ namespace Perimorph::Coupling
     std::vector<unsigned int>,                  \
     const Bonds::CrackSet<dim> &,               \
     const Bonds::BrokenBonds &,                 \
-    SharedParts<dim>);
+    SharedParts<dim>,                           \
+    const std::vector<unsigned int> &);
 
   PERIMORPH_INSTANTIATE(2)
   PERIMORPH_INSTANTIATE(3)

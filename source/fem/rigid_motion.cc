@@ -98,11 +98,10 @@ namespace Perimorph::Fem
 
   template <int dim>
   std::vector<FreeMotion<dim>>
-  free_motions(const Mesh::DistributedMesh<dim> &mesh,
-               const Supports<dim>              &supports)
+  free_motions(const Mesh::NodalMesh<dim>      &nodal,
+               const std::vector<unsigned int> &pieces,
+               const Supports<dim>             &supports)
   {
-    const auto        &nodal  = mesh.nodal();
-    const auto        &pieces = mesh.pieces();
     const unsigned int n_pieces =
       1 + *std::max_element(pieces.begin(), pieces.end());
     std::vector<dealii::Point<dim>> center(n_pieces);
@@ -125,7 +124,9 @@ namespace Perimorph::Fem
     std::vector<Eigen::MatrixXd>              gram;
     for (unsigned int p = 0; p < n_pieces; ++p)
       {
-        motions.push_back(all_motions(p, center[p], size[p]));
+        // A piece of one node has no size.
+        motions.push_back(
+          all_motions(p, center[p], size[p] > 0. ? size[p] : 1.));
         gram.push_back(Eigen::MatrixXd::Zero(n_modes<dim>, n_modes<dim>));
       }
     const auto hold = [&](const unsigned int piece, const auto &amount_of) {
@@ -239,9 +240,13 @@ namespace Perimorph::Fem
   template struct FreeMotion<2>;
   template struct FreeMotion<3>;
   template std::vector<FreeMotion<2>>
-  free_motions<2>(const Mesh::DistributedMesh<2> &, const Supports<2> &);
+  free_motions<2>(const Mesh::NodalMesh<2> &,
+                  const std::vector<unsigned int> &,
+                  const Supports<2> &);
   template std::vector<FreeMotion<3>>
-  free_motions<3>(const Mesh::DistributedMesh<3> &, const Supports<3> &);
+  free_motions<3>(const Mesh::NodalMesh<3> &,
+                  const std::vector<unsigned int> &,
+                  const Supports<3> &);
   template std::vector<unsigned int>
   pins_against<2>(const Mesh::DistributedMesh<2> &,
                   const std::vector<FreeMotion<2>> &);

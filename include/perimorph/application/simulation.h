@@ -119,6 +119,10 @@ namespace Perimorph::Application
     make_method(const Mesh::RegionMap      &region,
                 const Bonds::CrackSet<dim> &cracks,
                 Coupling::SharedParts<dim>  shared = {});
+    /// Nodes of parts that cracks cut off and supports leave free in a
+    /// direction; none where loads would move them.
+    std::vector<unsigned int>
+    nodes_cut_off(const Bonds::CrackSet<dim> &cracks) const;
     /// What direct solvers share while cracks grow or bonds break.
     std::shared_ptr<Solvers::FactorMemory>
     make_factor_memory() const;

@@ -107,6 +107,8 @@ namespace Perimorph::Coupling
     /// @param cracks      only needed by the constructor
     /// @param broken      the same
     /// @param shared      what an earlier problem knows
+    /// @param loose       nodes that springs too weak to matter hold, because
+    ///        a crack cut them off; on all ranks
     CoupledProblem(const Mesh::DistributedMesh<dim> &mesh,
                    const Mesh::RegionMap            &region,
                    const BodyMaterials<dim>         &materials,
@@ -115,7 +117,8 @@ namespace Perimorph::Coupling
                    std::vector<unsigned int>         more_nodes = {},
                    const Bonds::CrackSet<dim>       &cracks     = {},
                    const Bonds::BrokenBonds         &broken     = {},
-                   SharedParts<dim>                  shared     = {});
+                   SharedParts<dim>                  shared     = {},
+                   const std::vector<unsigned int>  &loose      = {});
 
     /// For a problem with the same mesh, materials and parameters; without
     /// `intact` if more than broken bonds differ.
@@ -264,6 +267,8 @@ namespace Perimorph::Coupling
     void
     ground_loose_parts(const std::vector<unsigned int> &parts,
                        const std::vector<bool>         &more = {});
+    void
+    ground(const std::vector<unsigned int> &nodes);
     void
     make_bonds(const Mesh::RegionMap      &region,
                const CouplingParameters   &parameters,

@@ -36,10 +36,21 @@ namespace Perimorph::Fem
 
   /// Rigid motions of each piece that no support prevents; orthonormal in the
   /// mean over the nodes of their piece, with rotations scaled by its size.
+  /// @param pieces  the piece of each node, from 0
+  template <int dim>
+  std::vector<FreeMotion<dim>>
+  free_motions(const Mesh::NodalMesh<dim>      &mesh,
+               const std::vector<unsigned int> &pieces,
+               const Supports<dim>             &supports);
+
+  /// The same for the pieces of the mesh.
   template <int dim>
   std::vector<FreeMotion<dim>>
   free_motions(const Mesh::DistributedMesh<dim> &mesh,
-               const Supports<dim>              &supports);
+               const Supports<dim>              &supports)
+  {
+    return free_motions(mesh.nodal(), mesh.pieces(), supports);
+  }
 
   /// Degrees of freedom that, held at zero, just prevent the free motions; the
   /// choice does not depend on the number of ranks.
