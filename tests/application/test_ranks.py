@@ -70,6 +70,8 @@ CASES = [
      BONDS, False),
     ("bonds, then segments", "edge_crack_growth.prm",
      [STRIP, "Cracks/maximum advances=14"] + HAND_OVER + BONDS, False),
+    ("bonds, then segments until separated", "edge_crack_growth.prm",
+     [STRIP, "Cracks/hand over length=2 horizons"] + BONDS, False),
     ("bonds, then segments, bond based", "edge_crack_growth.prm",
      [STRIP, "Cracks/maximum advances=18", "Cracks/softening teeth=1",
       "Peridynamics/model=bond based"] + HAND_OVER + BONDS, False),
