@@ -19,53 +19,57 @@ namespace Perimorph::Solvers
     /// Differences up to this, relative to the largest entry, are round-off.
     constexpr double round_off = 1e-14;
 
-    /// All entries on rank 0; ranks own rising ranges.
-    std::vector<double>
-    gathered(const Vector           &vector,
-             const dealii::IndexSet &owned,
-             MPI_Comm                communicator)
+    /// Moves vectors to rank 0 and back; ranks own rising ranges.
+    class OnRoot
     {
-      const auto counts =
-        dealii::Utilities::MPI::gather(communicator,
-                                       static_cast<int>(owned.n_elements()));
-      std::vector<int> starts(counts.size(), 0);
-      for (std::size_t r = 1; r < counts.size(); ++r)
-        starts[r] = starts[r - 1] + counts[r - 1];
-      std::vector<double> all(counts.empty() ? 0 : owned.size());
-      MPI_Gatherv(vector.begin(),
-                  owned.n_elements(),
-                  MPI_DOUBLE,
-                  all.data(),
-                  counts.data(),
-                  starts.data(),
-                  MPI_DOUBLE,
-                  0,
-                  communicator);
-      return all;
-    }
+    public:
+      OnRoot(const dealii::IndexSet &owned, MPI_Comm communicator)
+        : communicator(communicator)
+        , n_owned(owned.n_elements())
+        , counts(dealii::Utilities::MPI::gather(communicator, n_owned))
+        , starts(counts.size(), 0)
+        , size(counts.empty() ? 0 : owned.size())
+      {
+        for (std::size_t r = 1; r < counts.size(); ++r)
+          starts[r] = starts[r - 1] + counts[r - 1];
+      }
 
-    void
-    scatter(const std::vector<double> &all,
-            const dealii::IndexSet    &owned,
-            MPI_Comm                   communicator,
-            Vector                    &vector)
-    {
-      const auto counts =
-        dealii::Utilities::MPI::gather(communicator,
-                                       static_cast<int>(owned.n_elements()));
-      std::vector<int> starts(counts.size(), 0);
-      for (std::size_t r = 1; r < counts.size(); ++r)
-        starts[r] = starts[r - 1] + counts[r - 1];
-      MPI_Scatterv(all.data(),
-                   counts.data(),
-                   starts.data(),
-                   MPI_DOUBLE,
-                   vector.begin(),
-                   owned.n_elements(),
-                   MPI_DOUBLE,
-                   0,
-                   communicator);
-    }
+      std::vector<double>
+      gather(const Vector &vector) const
+      {
+        std::vector<double> all(size);
+        MPI_Gatherv(vector.begin(),
+                    n_owned,
+                    MPI_DOUBLE,
+                    all.data(),
+                    counts.data(),
+                    starts.data(),
+                    MPI_DOUBLE,
+                    0,
+                    communicator);
+        return all;
+      }
+
+      void
+      scatter(const std::vector<double> &all, Vector &vector) const
+      {
+        MPI_Scatterv(all.data(),
+                     counts.data(),
+                     starts.data(),
+                     MPI_DOUBLE,
+                     vector.begin(),
+                     n_owned,
+                     MPI_DOUBLE,
+                     0,
+                     communicator);
+      }
+
+    private:
+      MPI_Comm         communicator;
+      int              n_owned;
+      std::vector<int> counts, starts; ///< of ranks; on rank 0
+      std::size_t      size;
+    };
 
     class DirectSolver : public LinearSolver
     {
@@ -73,25 +77,23 @@ namespace Perimorph::Solvers
       DirectSolver(const MatrixParts      &matrix,
                    const dealii::IndexSet &owned,
                    MPI_Comm                communicator)
-        : owned(owned)
-        , communicator(communicator)
+        : on_root(owned, communicator)
         , factors(matrix, communicator)
       {}
 
       unsigned int
       solve(Vector &x, const Vector &b) override
       {
-        auto all = gathered(b, owned, communicator);
+        auto all = on_root.gather(b);
         factors.solve(all);
-        scatter(all, owned, communicator, x);
+        on_root.scatter(all, x);
         check_finite(x);
         return 1;
       }
 
     private:
-      const dealii::IndexSet owned;
-      MPI_Comm               communicator;
-      SparseFactors          factors;
+      const OnRoot  on_root;
+      SparseFactors factors;
     };
 
     template <typename Action>
@@ -177,8 +179,7 @@ namespace Perimorph::Solvers
                       const dealii::IndexSet       &owned,
                       MPI_Comm                      communicator)
         : condensation(std::move(condensation))
-        , owned(owned)
-        , communicator(communicator)
+        , on_root(owned, communicator)
       {
         const auto       &kept = this->condensation->kept;
         std::vector<int>  position(matrix[0]->n, -1);
@@ -240,7 +241,7 @@ namespace Perimorph::Solvers
       unsigned int
       solve(Vector &x, const Vector &b) override
       {
-        auto                all = gathered(b, owned, communicator);
+        auto                all = on_root.gather(b);
         std::vector<double> reduced;
         condensation->factors->reduce(all, reduced);
         if (complement.m() > 0)
@@ -250,15 +251,14 @@ namespace Perimorph::Solvers
             std::copy(y.begin(), y.end(), reduced.begin());
           }
         condensation->factors->expand(reduced, all);
-        scatter(all, owned, communicator, x);
+        on_root.scatter(all, x);
         check_finite(x);
         return 1;
       }
 
     private:
       std::shared_ptr<Condensation>    condensation;
-      const dealii::IndexSet           owned;
-      MPI_Comm                         communicator;
+      const OnRoot                     on_root;
       dealii::LAPACKFullMatrix<double> complement; ///< on rank 0
       bool                             is_definite = true;
     };
