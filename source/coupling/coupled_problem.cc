@@ -42,6 +42,16 @@ namespace Perimorph::Coupling
   }
 
   template <int dim>
+  std::shared_ptr<const Fem::Contribution<dim>>
+  CoupledProblem<dim>::elements() const
+  {
+    for (const auto &term : contributions)
+      if (term == parts_to_share.elements)
+        return term;
+    return nullptr;
+  }
+
+  template <int dim>
   bool
   CoupledProblem<dim>::is_linear() const
   {

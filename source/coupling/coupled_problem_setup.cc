@@ -426,6 +426,8 @@ namespace Perimorph::Coupling
       {
         element_weight.clear();
         replaced = core_cells(mesh.nodal(), region.alpha);
+        // Weights of equations are theirs alone.
+        parts_to_share.elements.reset();
       }
     make_elements(std::move(element_weight), std::move(replaced));
     const auto &elements = parts_to_share.elements;

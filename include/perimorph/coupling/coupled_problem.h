@@ -151,14 +151,10 @@ namespace Perimorph::Coupling
       return *parts_to_share.all_cells;
     }
 
-    /// What stays the same while families change; none if no element works.
+    /// What stays the same while families change; none, on all ranks, if no
+    /// element works.
     std::shared_ptr<const Term>
-    elements() const
-    {
-      return parts_to_share.elements && parts_to_share.elements->n_blocks() > 0
-               ? parts_to_share.elements
-               : nullptr;
-    }
+    elements() const;
 
     bool
     is_linear() const;
