@@ -13,8 +13,12 @@ namespace Perimorph::Solvers
 {
   namespace
   {
-    /// Above, the dense solve costs more than factors of all.
-    constexpr std::size_t most_kept = 700;
+    /// Above, the dense solve costs more than factors of all n unknowns.
+    std::size_t
+    most_kept(const std::size_t n)
+    {
+      return std::min<std::size_t>(700, n / 2);
+    }
 
     /// Differences up to this, relative to the largest entry, are round-off.
     constexpr double round_off = 1e-14;
@@ -296,9 +300,9 @@ namespace Perimorph::Solvers
               ++memory->n_reused;
               return solver;
             }
-        auto kept =
-          changed.size() <= most_kept ? memory->widen(changed) : changed;
-        if (!kept.empty() && kept.size() <= most_kept)
+        const auto most = most_kept(matrix[0]->n);
+        auto kept = changed.size() <= most ? memory->widen(changed) : changed;
+        if (!kept.empty() && kept.size() <= most)
           {
             ++memory->n_factorisations;
             condensation = std::make_shared<Condensation>();

@@ -197,6 +197,12 @@ namespace Perimorph::Solvers
     entries = changed(entries, 72, 2.);
     EXPECT_LT(solve(entries), 1e-10);
     EXPECT_EQ(memory.n_reused, 4u);
+
+    // Everywhere: nothing stays to be condensed.
+    for (unsigned int i = 0; i + 1 < n; ++i)
+      entries = changed(entries, i, 0.1);
+    EXPECT_LT(solve(entries), 1e-10);
+    EXPECT_EQ(memory.n_reused, 4u);
   }
 
   TEST_F(DirectSolver, SolversOutliveWhatTheyShare)
