@@ -1,0 +1,302 @@
+"""Named measurements, each with a target: ratios between runs of one session."""
+
+import math
+
+from runs import Run
+
+# Cells along a half of the hole (plate) or a quarter circle (cavity) per size,
+# whose nodes are about 3.9 nt^2 and 0.95 n^3.
+SIZES = {
+    "small": dict(plate=51, solid=16, full=16, ranks=(72, 20), elements=(51, 72),
+                  growth=(25, 51, 88), particles=(51, 51)),
+    "medium": dict(plate=160, solid=64, full=36, ranks=(253, 56),
+                   elements=(160, 253), growth=(51, 88, 160, 277),
+                   particles=(102, 88)),
+    "large": dict(plate=160, solid=64, full=64, ranks=(253, 56),
+                  elements=(160, 253), growth=(51, 88, 160, 277, 506),
+                  particles=(102, 88)),
+}
+# Seconds that other programs took on this class of machine.
+FENICSX = (1.9, 4.)
+PERIDIGM = {"bond based": 54., "correspondence": 54., "cantilever": 250.}
+
+ELEMENTS = (("Mode", "finite elements"),)
+
+
+def method(ratio, mode="coupled", model="correspondence"):
+    return (("Mode", mode), ("Peridynamics/model", model),
+            ("Peridynamics/horizon ratio", ratio))
+
+
+def plate(nt, entries, part=None, ranks=1):
+    return Run("plate_with_hole", (("nt", nt), ("nr", round(1.944 * nt))),
+               entries, ranks, part, 2.5)
+
+
+def solid(n, entries, part=None, ranks=1):
+    return Run("spherical_cavity", (("n", n), ("nr", round(1.266 * n))),
+               entries, ranks, part, 1.)
+
+
+class Rows:
+    """Collects rows of reach.csv and the runs behind them."""
+
+    def __init__(self, size):
+        self.size = size
+        self.rows = []
+        self.runs = []
+
+    def add(self, number, what, target, limit, value, wall=None, detail="",
+            least=False):
+        """value: what is compared with the limit (none: shown only); wall: the
+        same by wall clock."""
+        met = ""
+        if limit is not None and not math.isnan(value):
+            met = "yes" if (value >= limit if least else value <= limit) else "no"
+        self.rows.append(dict(row=number, size=self.size, what=what,
+                              target=target, measured="%.4g" % value,
+                              wall="" if wall is None else "%.4g" % wall,
+                              met=met, detail=detail))
+
+    def keep(self, label, result):
+        self.runs.append((label, result))
+
+    def compare(self, number, what, limit, other, base, detail="",
+                quantity=None):
+        """Time of a run over that of another, by processor and by wall clock."""
+        if other.failed or base.failed:
+            self.add(number, what, "<= %g" % limit, limit, math.nan,
+                     detail=other.failed or base.failed)
+            return
+        if quantity == "solve":
+            # The stages are by wall clock only.
+            self.add(number, what, "<= %g" % limit, limit,
+                     other.solve / base.solve, other.solve / base.solve, detail)
+            return
+        self.add(number, what, "<= %g" % limit, limit,
+                 other.processor / base.processor, other.wall / base.wall, detail)
+
+
+def counted(result):
+    counts = result.counts
+    return "%d nodes, %.0f %% of them particles, %d iterations" % (
+        counts["nodes"], 100. * counts["particles"] / counts["nodes"],
+        counts["linear_iterations"])
+
+
+def memory(rows, number, what, limit, other, base):
+    rows.add(number, what + ", memory", "<= %g" % limit, limit,
+             other.memory / base.memory,
+             detail="%.0f MB against %.0f MB" % (other.memory, base.memory))
+
+
+def row_1(session, rows, at):
+    base, other = session.measure([
+        plate(at["plate"], ELEMENTS), plate(at["plate"], method(2), .05)])
+    what = "plate with hole, 5 % in PD, m = 2, against FE"
+    rows.compare("1", what, 1.6, other, base, counted(other))
+    memory(rows, "1", what, 1.5, other, base)
+    rows.keep("plate, FE", base)
+    rows.keep("plate, 5 %, m = 2", other)
+
+
+def row_2(session, rows, at):
+    base, other = session.measure([
+        plate(at["plate"], ELEMENTS), plate(at["plate"], method(3), .25)])
+    rows.compare("2", "plate with hole, 25 % in PD, m = 3, against FE", 2.5,
+                 other, base, counted(other))
+    rows.keep("plate, 25 %, m = 3", other)
+
+
+def row_3(session, rows, at):
+    results = session.measure([solid(at["solid"], ELEMENTS)] + [
+        solid(at["solid"], method(m), .25) for m in (2, 3)])
+    rows.keep("cavity, FE", results[0])
+    for m, limit, most, other in zip((2, 3), (2.2, 3.2), (2., 3.), results[1:]):
+        what = "cavity in 3D, 25 %% in PD, m = %d, against FE" % m
+        rows.compare("3", what, limit, other, results[0], counted(other))
+        if not other.failed:
+            memory(rows, "3", what, most, other, results[0])
+        rows.keep("cavity, 25 %%, m = %d" % m, other)
+
+
+def row_4(session, rows, at):
+    results = session.measure([solid(at["full"], ELEMENTS)] + [
+        solid(at["full"], method(m, "peridynamics")) for m in (2, 3)])
+    for m, limit, other in zip((2, 3), (3.3, 5.5), results[1:]):
+        rows.compare("4", "cavity in 3D, PD everywhere, m = %d, solve against FE"
+                     % m, limit, other, results[0], counted(other)
+                     if not other.failed else "", "solve")
+        rows.keep("cavity, PD, m = %d" % m, other)
+
+
+def row_5(session, rows, at):
+    """Iterations: shown without a limit, the exact-factor counts are not known
+    to the program."""
+    entries = (("Solver/linear solver", "iterative"),)
+    for nt in at["growth"][:2] + at["growth"][-1:]:
+        base, other = session.measure([
+            plate(nt, ELEMENTS + entries), plate(nt, method(2) + entries, .05)],
+            1)
+        rows.add("5", "iterations, coupled over FE, %d nodes"
+                 % base.counts["nodes"], "", None,
+                 other.counts["linear_iterations"] /
+                 base.counts["linear_iterations"],
+                 detail="%d against %d" % (other.counts["linear_iterations"],
+                                           base.counts["linear_iterations"]))
+    for cells in (32, 64, 128):
+        from cases import crack
+        other, = session.measure([Run("centre_crack_square_plate", crack(cells),
+                                      method(2) + entries)], 1)
+        rows.add("5", "iterations, centre crack, %d nodes"
+                 % other.counts["nodes"], "", None,
+                 other.counts["linear_iterations"], detail="count, no ratio")
+
+
+def row_6(session, rows, at):
+    for nt, seconds in zip(at["elements"], FENICSX):
+        base, = session.measure([plate(nt, ELEMENTS)])
+        rows.add("6", "FE, %d unknowns, assembly and solve against FEniCSx"
+                 % base.counts["dofs"], "<= 1", 1., base.solve / seconds,
+                 detail="%.2g s against %g s from the issue, another mesh%s" % (
+                     base.solve, seconds, "; the size is not that of the target"
+                     if rows.size == "small" else ""))
+        rows.keep("plate, FE, %d unknowns" % base.counts["dofs"], base)
+
+
+def row_7(session, rows, at):
+    runs = [plate(nt, method(3, "peridynamics", model)) for nt, model in zip(
+        at["particles"], ("bond based", "correspondence"))]
+    runs.append(Run("cantilever_large_deflection", (("nx", 106), ("ny", 11)),
+                    method(2.015, "peridynamics")))
+    names = ("bond based", "correspondence", "cantilever")
+    for name, least, result in zip(names, (20., 20., 100.),
+                                   session.measure(runs)):
+        what = "PD everywhere, %s, 10 steps" % name if name == "cantilever" \
+            else "PD everywhere, %s plate, m = 3" % name
+        value = math.nan if result.failed else (
+            PERIDIGM[name] / result.processor)
+        rows.add("7", what + ": seconds of Peridigm over ours", ">= %g" % least,
+                 least, value, detail=result.failed or
+                 "%d particles, %.2g s; %g s from the issue" % (
+                     result.counts["particles"], result.processor,
+                     PERIDIGM[name]), least=True)
+        if not result.failed:
+            rows.keep("%s, PD, %d particles" % (name, result.counts["particles"]),
+                      result)
+
+
+def row_8(session, rows, at):
+    """The smallest shipped mesh with an error below 1 %."""
+    for nt in (20, 30, 40):
+        result, = session.measure([Run(
+            "plate_with_hole", (("nt", nt), ("nr", round(1.8 * nt))),
+            method(2))])
+        error = result.quantities["stress_concentration"]["relative_error"]
+        if abs(error) < .01:
+            break
+    seconds = result.processor - result.stages["mesh"]
+    detail = "K_t %.2f %% off, %d nodes, %.2g s" % (
+        100. * error, result.counts["nodes"], seconds)
+    rows.add("8", "K_t of a plate with a hole within 1 %: nodes", "< 10000",
+             10000, result.counts["nodes"] if abs(error) < .01 else math.nan,
+             detail=detail)
+    rows.add("8", "the same: seconds after meshing", "< 1", 1., seconds,
+             result.wall - result.stages["mesh"], detail)
+
+
+def at_equal_error(points, error):
+    """Time at this error on the line through the points (time, error) in
+    logarithms, its least squares."""
+    x = [math.log(e) for _, e in points]
+    y = [math.log(t) for t, _ in points]
+    mean_x, mean_y = sum(x) / len(x), sum(y) / len(y)
+    slope = sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) / sum(
+        (a - mean_x)**2 for a in x)
+    return math.exp(mean_y + slope * (math.log(error) - mean_x))
+
+
+def row_9(session, rows, at):
+    from cases import CASES, error
+    meshes = {"small": slice(0, 3), "medium": slice(1, 4), "large": slice(1, 4)}
+    for case in ("kirsch", "cavity"):
+        chosen = CASES[case]
+        what, quantity = chosen.errors[0]
+        points = {}
+        for name, entries in (("FE", ELEMENTS), ("coupled", method(2)),
+                              ("PD", method(2, "peridynamics"))):
+            runs = [Run(chosen.file, mesh, entries)
+                    for mesh in chosen.meshes[meshes[rows.size]]]
+            points[name] = [(result.processor, error(result, quantity))
+                            for result in session.measure(runs)]
+        target = points["coupled"][-1][1]
+        times = {name: at_equal_error(found, target)
+                 for name, found in points.items()}
+        detail = "error %.2g; times on lines through three meshes" % target
+        rows.add("9", "%s, equal error (%s): PD over coupled" % (
+            chosen.title, what), ">= 20", 20., times["PD"] / times["coupled"],
+            detail=detail, least=True)
+        rows.add("9", "%s, equal error (%s): coupled over FE" % (
+            chosen.title, what), "<= 1.5", 1.5, times["coupled"] / times["FE"],
+            detail=detail)
+
+
+def row_11(session, rows, at):
+    results = session.measure([plate(nt, method(2), .05) for nt in at["growth"]])
+    nodes = [result.counts["nodes"] for result in results]
+    detail = "%d to %d nodes" % (nodes[0], nodes[-1])
+
+    def exponent(times):
+        x, y = [math.log(n) for n in nodes], [math.log(t) for t in times]
+        mean_x, mean_y = sum(x) / len(x), sum(y) / len(y)
+        return sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) / sum(
+            (a - mean_x)**2 for a in x)
+
+    rows.add("11", "growth of time with nodes, all stages: exponent", "<= 1.1",
+             1.1, exponent([r.processor for r in results]),
+             exponent([r.wall for r in results]), detail)
+    for stage in ("mesh", "regions", "families", "patch_test", "assembly",
+                  "linear_solver"):
+        value = exponent([max(r.stages[stage], 1e-4) for r in results])
+        rows.add("11", "the same, %s alone" % stage, "", None, value, value,
+                 detail)
+    for result in results:
+        rows.keep("plate, 5 %%, m = 2, %d nodes" % result.counts["nodes"], result)
+
+
+def row_12(session, rows, at):
+    for name, build, count in zip(("2D", "3D"), (plate, solid), at["ranks"]):
+        one, two = session.measure([build(count, method(2), .05, ranks)
+                                    for ranks in (1, 2)])
+        value = one.wall / two.wall
+        rows.add("12", "one rank over two, %s, 5 %% in PD" % name, ">= 1.7", 1.7,
+                 value, value, "%d unknowns, by wall clock; memory per rank "
+                 "%.2f of one" % (one.counts["dofs"], two.memory / one.memory),
+                 least=True)
+        rows.add("12", "the same, linear solver alone", "", None,
+                 one.stages["linear_solver"] / two.stages["linear_solver"])
+        rows.keep("%s, one rank" % name, one)
+        rows.keep("%s, two ranks" % name, two)
+
+
+def row_13(session, rows, at):
+    for name, limit, run in (
+            ("2D, 25 %, m = 3", .15, plate(at["plate"], method(3), .25)),
+            ("3D, 25 %, m = 2", .25, solid(at["solid"], method(2), .25)),
+            ("3D, 25 %, m = 3", .25, solid(at["solid"], method(3), .25))):
+        result, = session.measure([run])
+        if result.failed:
+            rows.add("13", name, "<= %g" % limit, limit, math.nan,
+                     detail=result.failed)
+            continue
+        rows.add("13", "share of families and regions in a linear run, " + name,
+                 "<= %g" % limit, limit, result.share("families", "regions"),
+                 detail=counted(result))
+
+
+ROWS = {"row_1": row_1, "row_2": row_2, "row_3": row_3, "row_4": row_4,
+        "row_5": row_5, "row_6": row_6, "row_7": row_7, "row_8": row_8,
+        "row_9": row_9, "row_11": row_11, "row_12": row_12, "row_13": row_13}
+NOT_BUILT = {
+    "10": "equal error in K_I: coupled against elements with deleted cells",
+    "14": "local refinement: nodes for an error against a uniform mesh"}

@@ -1,0 +1,242 @@
+"""Runs the program repeatedly and measures it: time, memory, counts, errors."""
+
+import csv
+import json
+import os
+import pathlib
+import re
+import statistics
+import subprocess
+import sys
+import time
+from dataclasses import dataclass, field
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests" / "application"))
+from harness import environment  # noqa: E402
+
+# Stages of results.json that do not overlap; "set-up" is what is left of it.
+STAGES = ["mesh", "regions", "families", "other set-up", "patch_test",
+          "assembly", "linear_solver", "recovery", "output", "rest"]
+COUNTS = ["nodes", "dofs", "cells", "active_cells", "particles", "bonds",
+          "newton_iterations", "linear_iterations"]
+
+
+def fail(message):
+    sys.exit("Error: " + message)
+
+
+@dataclass(frozen=True)
+class Run:
+    """A shipped parameter file on a mesh of its geometry, with other entries.
+
+    geometry, entries: tuples of (name, value); part: share of all nodes that
+    peridynamics takes around the hole or cavity at the origin whose radius is
+    `radius`, or None.
+    """
+    file: str
+    geometry: tuple = ()
+    entries: tuple = ()
+    ranks: int = 1
+    part: float = None
+    radius: float = 0.
+
+
+@dataclass
+class Measurement:
+    """Medians over the repetitions; seconds, megabytes."""
+    wall: float
+    processor: float
+    memory: float
+    counts: dict
+    stages: dict
+    quantities: dict
+    solver: str
+    repetitions: int
+    failed: str = ""
+
+    @property
+    def solve(self):
+        return self.stages["assembly"] + self.stages["linear_solver"]
+
+    def share(self, *names):
+        return sum(self.stages[name] for name in names) / self.wall
+
+
+@dataclass
+class Session:
+    """Runs on this machine; a run that was measured is not repeated."""
+    program: pathlib.Path
+    mpirun: str
+    folder: pathlib.Path
+    repeat: int
+    known: dict = field(default_factory=dict)
+
+    def __post_init__(self):
+        self.environment = environment()
+        # The same for every run: loading libraries, MPI.
+        self.start_up = statistics.median(
+            self.spend([self.program, "--version"])[1] for _ in range(5))
+
+    def spend(self, command):
+        """Exit code, processor time of a command and its children, text."""
+        log = self.folder / "command.txt"
+        with open(log, "w") as output:
+            process = subprocess.Popen([str(word) for word in command],
+                                       stdin=subprocess.DEVNULL, stdout=output,
+                                       stderr=subprocess.STDOUT, cwd=self.folder,
+                                       env=self.environment)
+            _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        return (process.returncode, usage.ru_utime + usage.ru_stime,
+                log.read_text(errors="replace"))
+
+    def mesh(self, run):
+        """The .msh of a run: meshed once, so that no run contains gmsh."""
+        text = (ROOT / "parameter_files" / (run.file + ".prm")).read_text()
+        text = re.sub(r"#.*", "", text).replace("\\\n", " ")
+        geometry = ROOT / "parameter_files" / re.search(
+            r"set file\s*=\s*(\S+)", text)[1]
+        default = re.search(r"set geometry parameters\s*=\s*(.*)", text)
+        values = dict(
+            re.findall(r"([\w]+)\s*=\s*([-+.\deE]+)", default[1])
+            if default else ())
+        values.update((name, "%.17g" % value) for name, value in run.geometry)
+        dimension = re.search(r"set Dimension\s*=\s*(\d)", text)
+        name = "_".join([geometry.stem] +
+                        ["%s%s" % word for word in sorted(values.items())])
+        path = self.folder / (name + ".msh")
+        if not path.exists():
+            command = ["gmsh", "-" + (dimension[1] if dimension else "2"),
+                       geometry, "-format", "msh41", "-o", path]
+            for word in values.items():
+                command += ["-setnumber", *word]
+            code, _, output = self.spend(command)
+            if code != 0 or not path.exists():
+                fail("gmsh could not mesh %s:\n%s" % (geometry, output))
+        return path
+
+    def command(self, run, output):
+        mesh = self.mesh(run)
+        entries = {
+            "Mesh/file": mesh, "Mesh/geometry parameters": "",
+            "Quantities/compare with finite elements": "false",
+            "Output/fields": "false", "Output/checkpoint": "false",
+        }
+        entries.update(run.entries)
+        if run.part:
+            reach = distance_of_part(mesh, run.part, run.radius)
+            entries["Peridynamics/core size"] = .75 * reach
+            entries["Peridynamics/blending width"] = .25 * reach
+        words = [self.program, ROOT / "parameter_files" / (run.file + ".prm"),
+                 "--output", output]
+        for entry in entries.items():
+            words += ["--set", "%s=%s" % entry]
+        if run.ranks > 1:
+            words = [self.mpirun, "--quiet", "--oversubscribe", "-np",
+                     run.ranks] + words
+        return words
+
+    def once(self, run):
+        output = self.folder / "output"
+        code, seconds, text = self.spend(self.command(run, output))
+        if code != 0:
+            return None, seconds, text
+        return (json.loads((output / "results.json").read_text()),
+                max(seconds - self.start_up, 1e-3), text)
+
+    def measure(self, runs, repeat=None):
+        """Measures runs that are compared with each other, in turns: what else
+        the machine does meets all of them."""
+        samples = {run: [] for run in runs if run not in self.known}
+        for _ in range(repeat or self.repeat):
+            for run, sample in samples.items():
+                if sample and sample[-1][0] is None:
+                    continue
+                began = time.time()
+                sample.append(self.once(run))
+                print("  %-28s %s%s: %.1f s" % (
+                    run.file, describe(run), " on %d ranks" % run.ranks
+                    if run.ranks > 1 else "", time.time() - began), flush=True)
+        for run, sample in samples.items():
+            self.known[run] = summary(sample)
+        return [self.known[run] for run in runs]
+
+
+def describe(run):
+    words = dict(run.entries)
+    text = words.get("Mode", "coupled")
+    if text != "finite elements":
+        text += ", %s, m = %s" % (words.get("Peridynamics/model", "as shipped"),
+                                  words.get("Peridynamics/horizon ratio", "?"))
+    return text
+
+
+def summary(sample):
+    results, _, text = sample[-1]
+    if results is None:
+        lines = [line for line in text.splitlines() if "rror" in line]
+        return Measurement(0., 0., 0., {}, {}, {}, "", len(sample),
+                           lines[0].strip() if lines else "failed")
+    # The stages of the run whose time is the median, which add up to it.
+    times = sorted(((one["timings"]["total"], k)
+                    for k, (one, _, _) in enumerate(sample)))
+    wall, middle = times[len(times) // 2]
+    return Measurement(
+        wall=wall,
+        processor=statistics.median(s[1] for s in sample),
+        memory=statistics.median(s[0]["peak_memory_mb"] for s in sample),
+        counts=dict(results["counts"]),
+        stages=stages_of(sample[middle][0]["timings"]),
+        quantities=results["quantities"],
+        solver=results["solver"]["linear_solver"],
+        repetitions=len(sample))
+
+
+def stages_of(timings):
+    """Stages that do not overlap, whose sum is the total."""
+    stages = {name: timings.get(name, 0.) for name in STAGES}
+    stages["other set-up"] = timings["setup"] - sum(
+        stages[name] for name in ("mesh", "regions", "families"))
+    stages["rest"] = timings["total"] - sum(stages.values())
+    return stages
+
+
+def distance_of_part(path, part, radius):
+    """The distance from a hole or cavity around the origin within which this
+    part of all nodes lies, from the mesh (MSH 4.1)."""
+    distances = []
+    with open(path) as file:
+        for line in file:
+            if line.startswith("$Nodes"):
+                break
+        for _ in range(int(next(file).split()[0])):
+            count = int(next(file).split()[3])
+            for _ in range(count):
+                next(file)
+            for _ in range(count):
+                x = [float(word) for word in next(file).split()]
+                distances.append(sum(c * c for c in x)**.5 - radius)
+    distances.sort()
+    return distances[int(part * len(distances))]
+
+
+def write_table(path, rows, keys):
+    """Adds rows (dictionaries) to a CSV file; those that agree in all keys with
+    a new one are replaced."""
+    old = read_table(path)
+    new = {tuple(str(row[key]) for key in keys) for row in rows}
+    rows = [row for row in old
+            if tuple(row[key] for key in keys) not in new] + rows
+    names = list(dict.fromkeys(name for row in rows for name in row))
+    with open(path, "w", newline="") as file:
+        writer = csv.DictWriter(file, names, restval="", lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def read_table(path):
+    if not path.exists():
+        return []
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
