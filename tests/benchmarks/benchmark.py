@@ -7,8 +7,11 @@ import time
 import plots
 import tables
 from cases import CASES, error_study, record
-from reach import ROWS, SIZES, Rows
-from runs import Session, fail, write_table
+from reach import ROWS, SIZES, Rows, row_13
+from runs import Session, fail, read_table, write_table
+
+# Seconds after which runs that are compared are not repeated without --repeat.
+PATIENCE = {"small": 4., "medium": 40., "large": 400.}
 
 
 def machine(session, size):
@@ -34,6 +37,8 @@ def main(arguments, folder):
     output.mkdir(parents=True, exist_ok=True)
     if not arguments.draw:
         run(arguments, folder, names, output)
+    write_table(output / "reach.csv", row_13(read_table(output / "stages.csv")),
+                ["row", "size", "what"])
     plots.draw(output)
     tables.write_readme(output)
     print("Written: %s" % output)
@@ -41,7 +46,8 @@ def main(arguments, folder):
 
 def run(arguments, folder, names, output):
     session = Session(arguments.program.resolve(), arguments.mpirun, folder,
-                      arguments.repeat or 3)
+                      arguments.repeat or 3,
+                      1e9 if arguments.repeat else PATIENCE[arguments.size])
     write_table(output / "machine.csv", [machine(session, arguments.size)],
                 ["size"])
     began = time.time()

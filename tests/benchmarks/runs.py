@@ -59,17 +59,17 @@ class Measurement:
     def solve(self):
         return self.stages["assembly"] + self.stages["linear_solver"]
 
-    def share(self, *names):
-        return sum(self.stages[name] for name in names) / self.wall
-
 
 @dataclass
 class Session:
-    """Runs on this machine; a run that was measured is not repeated."""
+    """Runs on this machine; a run that was measured is not measured again.
+    Runs are repeated up to `repeat` times, no more once the seconds of
+    `patience` are spent on those that are compared with each other."""
     program: pathlib.Path
     mpirun: str
     folder: pathlib.Path
     repeat: int
+    patience: float
     known: dict = field(default_factory=dict)
 
     def __post_init__(self):
@@ -149,7 +149,10 @@ class Session:
         """Measures runs that are compared with each other, in turns: what else
         the machine does meets all of them."""
         samples = {run: [] for run in runs if run not in self.known}
-        for _ in range(repeat or self.repeat):
+        first = time.time()
+        for k in range(repeat or self.repeat):
+            if k > 0 and time.time() - first > self.patience:
+                break
             for run, sample in samples.items():
                 if sample and sample[-1][0] is None:
                     continue
@@ -224,6 +227,8 @@ def distance_of_part(path, part, radius):
 def write_table(path, rows, keys):
     """Adds rows (dictionaries) to a CSV file; those that agree in all keys with
     a new one are replaced."""
+    if not rows:
+        return
     old = read_table(path)
     new = {tuple(str(row[key]) for key in keys) for row in rows}
     rows = [row for row in old
