@@ -55,6 +55,8 @@ def draw_errors(folder, name, rows):
                       marker=MARKERS[ratio], markersize=4, linewidth=1.2)
         logarithmic(axis)
         axis.set_xlabel(title)
+        if column == "memory":  # within less than a decade
+            axis.set_xscale("linear")
     axes[0].set_ylabel("relative error, " + case.errors[0][0])
     handles, labels = axes[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="upper left", fontsize=8,
@@ -80,6 +82,7 @@ def draw_stages(folder, rows):
         left = [a + b for a, b in zip(left, share)]
     axis.set_yticks(range(len(rows)), [row["run"] for row in rows], fontsize=8)
     axis.set_xlim(0, 100)
+    axis.margins(y=.01)
     axis.set_xlabel("share of the wall clock time (%)")
     figure.legend(loc="lower center", ncol=5, fontsize=8, frameon=False,
                   bbox_to_anchor=(.5, 1.))

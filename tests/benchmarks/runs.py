@@ -74,22 +74,30 @@ class Session:
 
     def __post_init__(self):
         self.environment = environment()
-        # The same for every run: loading libraries, MPI.
         self.start_up = statistics.median(
-            self.spend([self.program, "--version"])[1] for _ in range(5))
+            self.spend([self.program, "--version"])[1] for _ in range(3))
 
     def spend(self, command):
-        """Exit code, processor time of a command and its children, text."""
-        log = self.folder / "command.txt"
-        with open(log, "w") as output:
-            process = subprocess.Popen([str(word) for word in command],
-                                       stdin=subprocess.DEVNULL, stdout=output,
-                                       stderr=subprocess.STDOUT, cwd=self.folder,
-                                       env=self.environment)
-            _, status, usage = os.wait4(process.pid, 0)
+        """Exit code, processor seconds up to the first line of the output and
+        after it, text. What is before is start-up: libraries, MPI."""
+        process = subprocess.Popen([str(word) for word in command],
+                                   stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.PIPE,
+                                   stderr=subprocess.STDOUT, cwd=self.folder,
+                                   env=self.environment, text=True,
+                                   errors="replace")
+        text = process.stdout.readline()
+        try:
+            with open("/proc/%d/schedstat" % process.pid) as file:
+                before = 1e-9 * int(file.read().split()[0])
+        except (OSError, ValueError, IndexError):
+            before = 0.
+        text += process.stdout.read()
+        _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
-        return (process.returncode, usage.ru_utime + usage.ru_stime,
-                log.read_text(errors="replace"))
+        process.stdout.close()
+        return (process.returncode, before,
+                usage.ru_utime + usage.ru_stime - before, text)
 
     def mesh(self, run):
         """The .msh of a run: meshed once, so that no run contains gmsh."""
@@ -111,7 +119,7 @@ class Session:
                        geometry, "-format", "msh41", "-o", path]
             for word in values.items():
                 command += ["-setnumber", *word]
-            code, _, output = self.spend(command)
+            code, _, _, output = self.spend(command)
             if code != 0 or not path.exists():
                 fail("gmsh could not mesh %s:\n%s" % (geometry, output))
         return path
@@ -139,11 +147,11 @@ class Session:
 
     def once(self, run):
         output = self.folder / "output"
-        code, seconds, text = self.spend(self.command(run, output))
+        code, _, seconds, text = self.spend(self.command(run, output))
         if code != 0:
             return None, seconds, text
         return (json.loads((output / "results.json").read_text()),
-                max(seconds - self.start_up, 1e-3), text)
+                max(seconds, 1e-3), text)
 
     def measure(self, runs, repeat=None):
         """Measures runs that are compared with each other, in turns: what else

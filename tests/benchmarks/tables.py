@@ -17,7 +17,7 @@ scripts/benchmark --size medium --case row_3 ellipse
 ```
 
 Claims are ratios between runs of one session on one machine. **Time** is the
-processor time of the run without what every start of the program takes (loading
+processor time of the run from the first line of its output on (before it: loading
 libraries, MPI), because other work on the machine hardly changes it; on an idle
 machine it is the wall clock time of one rank, which stands beside it. Meshes are
 made before the runs, whose time has the reading of them. Rows of two ranks and
