@@ -55,9 +55,11 @@ class Measurement:
     repetitions: int
     failed: str = ""
 
-    @property
-    def solve(self):
-        return self.stages["assembly"] + self.stages["linear_solver"]
+    def time_of(self, *names):
+        """Processor time of stages: their share of the time of the run (what
+        else the machine does makes all stages longer)."""
+        return self.processor * sum(
+            self.stages[name] for name in names) / self.wall
 
 
 @dataclass
