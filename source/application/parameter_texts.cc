@@ -247,7 +247,9 @@ namespace Perimorph::Application
                       choice({"automatic", "assembled", "matrix-free"}));
     prm.add_parameter("linear tolerance",
                       linear_tolerance,
-                      "Relative residual at which the iterative solver stops.",
+                      "Relative residual at which the iterative solver stops "
+                      "at the latest; it goes no further than the Newton "
+                      "tolerance has use for.",
                       Double(1e-15, 1e-2));
     prm.add_parameter("Newton tolerance",
                       newton_tolerance,

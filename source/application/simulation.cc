@@ -76,6 +76,7 @@ namespace Perimorph::Application
         const bool complete = solve_load_steps(method);
         const auto state    = gather(method);
         evaluate(method, state);
+        report_skipped(method);
         if (parameters.compare_with_finite_elements &&
             parameters.region.mode != Mesh::Mode::finite_elements)
           compare_with_finite_elements(state);
@@ -278,6 +279,10 @@ namespace Perimorph::Application
         [this](const unsigned int dof) { return supports->hold(dof); });
     }
     result->set("checks", "ghost_force", ghost);
+    if (counts.particles == 0)
+      result->set("skipped",
+                  "patch_test",
+                  "elements alone are their own reference");
 
     const auto &choice = method.equilibrium->choice();
     const auto  name   = std::string(choice.direct ? "direct (MUMPS)"

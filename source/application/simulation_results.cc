@@ -318,6 +318,27 @@ namespace Perimorph::Application
 
   template <int dim>
   void
+  Simulation<dim>::report_skipped(const Method &method)
+  {
+    const auto &solver = *method.equilibrium;
+    if (solver.linear_solves() > solver.linear_solvers_made())
+      result->set("skipped",
+                  solver.choice().direct ? "factorisations" : "preconditioners",
+                  solver.linear_solves() - solver.linear_solvers_made());
+    if (solver.choice().entries_saved > 0.)
+      result->set("skipped",
+                  "matrix_entries_of_families",
+                  static_cast<std::size_t>(solver.choice().entries_saved));
+    if (factor_memory && factor_memory->n_reused > 0)
+      result->set("skipped",
+                  "eliminations_of_far_field",
+                  factor_memory->n_reused);
+    if (!parameters.write_fields)
+      result->set("skipped", "fields", "not asked for");
+  }
+
+  template <int dim>
+  void
   Simulation<dim>::finish(const Output::Status status)
   {
     for (const auto &file : fields->files())
@@ -346,10 +367,6 @@ namespace Perimorph::Application
         result->set("growth", "released_energy", released_energy);
         result->set("growth", "dissipated_energy", dissipated_energy);
       }
-    if (factor_memory && factor_memory->n_reused > 0)
-      result->set("skipped",
-                  "eliminations_of_far_field",
-                  factor_memory->n_reused);
     const auto table  = timing.table();
     const auto memory = Base::peak_memory(communicator);
     result->set_status(status);

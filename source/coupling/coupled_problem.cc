@@ -87,13 +87,13 @@ namespace Perimorph::Coupling
   void
   CoupledProblem<dim>::extrapolate_stress(const Vector &displacement,
                                           const Vector &step,
-                                          const bool    of_full_elements) const
+                                          const bool    of_preconditioner) const
   {
     Base::collectively(mesh.communicator(), [&]() {
       for (const auto &term : contributions)
         term->extrapolate_stress(displacement, step);
-      if (of_full_elements)
-        parts_to_share.all_cells->extrapolate_stress(displacement, step);
+      if (of_preconditioner)
+        preconditioner->extrapolate_stress(displacement, step);
     });
   }
 
@@ -103,7 +103,7 @@ namespace Perimorph::Coupling
   {
     for (const auto &term : contributions)
       term->forget_stress();
-    parts_to_share.all_cells->forget_stress();
+    preconditioner->forget_stress();
   }
 
   template <int dim>
@@ -170,12 +170,15 @@ namespace Perimorph::Coupling
   CoupledProblem<dim>::ghost_force(
     const std::function<bool(unsigned int)> &excluded) const
   {
+    double worst = cracked.residual;
+    if (parts_to_share.all_cells == parts_to_share.elements)
+      return worst; // elements alone are their own reference
+
     const auto &nodal = mesh.nodal();
     Vector      displacement, forces, reference;
     partition().initialize(displacement);
     partition().initialize(forces);
     partition().initialize(reference);
-    double     worst    = cracked.residual;
     const auto at_crack = [&](const unsigned int node) {
       return std::binary_search(cracked.nodes.begin(),
                                 cracked.nodes.end(),

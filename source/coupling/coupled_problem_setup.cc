@@ -9,6 +9,7 @@
 #include <perimorph/coupling/coupled_problem.h>
 #include <perimorph/coupling/grounding_term.h>
 #include <perimorph/coupling/segment_piece_term.h>
+#include <perimorph/coupling/softened_elements.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -165,12 +166,22 @@ namespace Perimorph::Coupling
 
     if (!loose.empty())
       ground(loose);
-    if (!parts_to_share.all_cells || !parts_to_share.all_cells->is_linear())
+    if (region.n_core + region.n_blending == 0)
+      parts_to_share.all_cells = parts_to_share.elements;
+    else if (!parts_to_share.all_cells ||
+             !parts_to_share.all_cells->is_linear())
       parts_to_share.all_cells =
         std::make_shared<Fem::ElasticCells<dim>>(mesh.nodal(),
                                                  partition(),
                                                  materials.laws,
                                                  std::vector<double>());
+    preconditioner = families.empty()
+                       ? parts_to_share.all_cells
+                       : softened_elements(mesh.nodal(),
+                                           region.alpha,
+                                           cracks,
+                                           broken,
+                                           parts_to_share.all_cells);
     for (const auto &term : contributions)
       if (dynamic_cast<const Fem::ElasticCells<dim> *>(term.get()))
         local_counts.active_cells += term->n_blocks();

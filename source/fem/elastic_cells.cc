@@ -37,6 +37,15 @@ namespace Perimorph::Fem
   }
 
   template <int dim>
+  void
+  ElasticCells<dim>::scale(const std::vector<double> &factors)
+  {
+    for (unsigned int c = 0; c < cells.size(); ++c)
+      for (double &weight : cells[c].weights)
+        weight *= factors[c];
+  }
+
+  template <int dim>
   std::string
   ElasticCells<dim>::name() const
   {

@@ -1,4 +1,3 @@
-#include <perimorph/base/timing.h>
 #include <perimorph/solvers/equilibrium.h>
 
 #include <algorithm>
@@ -43,8 +42,10 @@ namespace Perimorph::Solvers
     };
     const auto solve_with =
       [&](Vector &solution, Vector &right_hand_side, Vector &prescribed) {
-        const auto timer      = timing.scope("linear_solver");
-        const auto iterations = linear_solver->solve(solution, right_hand_side);
+        const auto iterations = solve_tangent(displacement,
+                                              solution,
+                                              right_hand_side,
+                                              parameters.linear_tolerance);
         constraints.distribute(solution);
         solution += prescribed;
         return iterations;

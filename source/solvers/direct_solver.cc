@@ -86,7 +86,7 @@ namespace Perimorph::Solvers
       {}
 
       unsigned int
-      solve(Vector &x, const Vector &b) override
+      solve(Vector &x, const Vector &b, double) override
       {
         auto all = on_root.gather(b);
         factors.solve(all);
@@ -243,7 +243,7 @@ namespace Perimorph::Solvers
       }
 
       unsigned int
-      solve(Vector &x, const Vector &b) override
+      solve(Vector &x, const Vector &b, double) override
       {
         auto                all = on_root.gather(b);
         std::vector<double> reduced;

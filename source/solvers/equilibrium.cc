@@ -1,3 +1,4 @@
+#include <perimorph/base/exceptions.h>
 #include <perimorph/base/log.h>
 #include <perimorph/base/progress.h>
 #include <perimorph/base/timing.h>
@@ -13,19 +14,17 @@ namespace Perimorph::Solvers
   {
     template <int dim>
     ProblemSize
-    problem_size(const Coupling::CoupledProblem<dim> &problem,
-                 const bool                           symmetric)
+    problem_size(const Coupling::CoupledProblem<dim> &problem)
     {
       ProblemSize size;
       const auto  counts = problem.counts();
       size.dim           = dim;
       size.n_dofs        = problem.partition().owned_dofs().size();
-      size.symmetric     = symmetric;
-      if (!problem.family_terms().empty())
-        {
-          size.n_family_bonds = counts.bonds;
-          size.n_particles    = counts.particles;
-        }
+      size.n_particles   = counts.particles;
+      size.n_bonds       = counts.bonds;
+      size.families      = !problem.family_terms().empty();
+      size.n_ranks       = dealii::Utilities::MPI::n_mpi_processes(
+        problem.partition().communicator());
       return size;
     }
   } // namespace
@@ -46,9 +45,10 @@ namespace Perimorph::Solvers
     , follower(mesh, problem.partition(), loads.surface_loads())
     , solver_choice(choose_linear_solver(parameters.linear_solver,
                                          parameters.tangent,
-                                         problem_size(problem, is_symmetric())))
+                                         problem_size(problem)))
     , constraints(problem.partition(), supports, problem.is_linear())
     , assembler(problem.partition(), constraints.lines())
+    , preconditioner_age(20.)
   {
     if (solver_choice.matrix_free && constraints.couple_unknowns())
       {
@@ -138,6 +138,7 @@ namespace Perimorph::Solvers
     }
     const auto timer = timing.scope("linear_solver");
     linear_solver.reset();
+    ++n_linear_solvers;
     linear_solver = make_direct_solver(std::move(parts),
                                        problem.partition().owned_dofs(),
                                        problem.partition().communicator(),
@@ -155,31 +156,43 @@ namespace Perimorph::Solvers
         prepare_direct_solver(displacement);
         return;
       }
-    const std::vector<const Fem::Contribution<dim> *> full_elements = {
-      &problem.full_elements()};
+    preconditioner_is_kept = linear_solver && preconditioner_age.still_pays();
+    const Terms preconditioner_terms = {&problem.preconditioner_elements()};
     {
       const auto timer = timing.scope("assembly");
       if (!pattern_is_made)
         {
           assembler.make_pattern(tangent_terms(), matrix);
           if (solver_choice.matrix_free)
-            assembler.make_pattern(full_elements, preconditioner_matrix);
+            assembler.make_pattern(preconditioner_terms, preconditioner_matrix);
           pattern_is_made = true;
         }
       assemble_tangent(tangent_terms(), displacement, matrix);
-      if (solver_choice.matrix_free)
-        assembler.assemble(full_elements, displacement, preconditioner_matrix);
+      if (solver_choice.matrix_free && !preconditioner_is_kept)
+        assembler.assemble(preconditioner_terms,
+                           displacement,
+                           preconditioner_matrix);
+      else if (!preconditioner_is_kept && !is_linear())
+        // Multigrid smooths with the matrix it was made of.
+        preconditioner_matrix.copy_from(matrix);
     }
-    const auto timer = timing.scope("linear_solver");
-    linear_solver.reset();
-    tangent = std::make_unique<TangentOperator<dim>>(
+    const auto  timer             = timing.scope("linear_solver");
+    const auto &preconditioner_of = solver_choice.matrix_free || !is_linear()
+                                      ? preconditioner_matrix
+                                      : matrix;
+    tangent                       = std::make_unique<TangentOperator<dim>>(
       matrix,
       solver_choice.matrix_free ? problem.family_terms()
-                                : std::vector<const Fem::Contribution<dim> *>(),
+                                                      : std::vector<const Fem::Contribution<dim> *>(),
       displacement,
       constraints.lines(),
-      solver_choice.matrix_free ? preconditioner_matrix : matrix,
+      preconditioner_of,
       problem.partition().owned_dofs());
+    if (preconditioner_is_kept)
+      return;
+    ++n_linear_solvers;
+    preconditioner_age.renew();
+    linear_solver.reset();
     using Clock       = std::chrono::steady_clock;
     auto last_line    = Clock::now();
     auto on_iteration = [this, last_line](const unsigned int iteration,
@@ -197,11 +210,39 @@ namespace Perimorph::Solvers
       [this](Vector &destination, const Vector &source) {
         tangent->vmult(destination, source);
       },
-      solver_choice.matrix_free ? preconditioner_matrix : matrix,
+      preconditioner_of,
       problem.partition(),
       is_symmetric(),
-      parameters.linear_tolerance,
       on_iteration);
+  }
+
+  template <int dim>
+  unsigned int
+  Equilibrium<dim>::solve_tangent(const Vector &displacement,
+                                  Vector       &solution,
+                                  const Vector &right_hand_side,
+                                  const double  tolerance)
+  {
+    const auto attempt = [&]() {
+      const auto timer = timing.scope("linear_solver");
+      const auto iterations =
+        linear_solver->solve(solution, right_hand_side, tolerance);
+      preconditioner_age.count(iterations, tolerance);
+      ++n_linear_solves;
+      return iterations;
+    };
+    try
+      {
+        return attempt();
+      }
+    catch (const Base::SolveError &)
+      {
+        if (!preconditioner_is_kept)
+          throw;
+      }
+    preconditioner_age.expire();
+    prepare_linear_solver(displacement);
+    return attempt();
   }
 
   template <int dim>
@@ -316,8 +357,11 @@ namespace Perimorph::Solvers
     Vector                           base;
     typename Constraints<dim>::State base_state;
     NewtonActions                    actions;
+    ForcingTerm   forcing(parameters.linear_tolerance, is_linear());
+    ResidualNorms norms;
     actions.evaluate = [&](const unsigned int iteration) {
-      return evaluate(time, displacement, iteration == 0);
+      norms = evaluate(time, displacement, iteration == 0);
+      return norms;
     };
     double step_length = 0.; // of the step that led here
     actions.solve      = [&]() {
@@ -328,11 +372,16 @@ namespace Perimorph::Solvers
           base.update_ghost_values();
           problem.extrapolate_stress(base,
                                      correction,
-                                     solver_choice.matrix_free);
+                                     solver_choice.matrix_free &&
+                                       !preconditioner_age.still_pays());
         }
       prepare_linear_solver(displacement);
-      const auto timer      = timing.scope("linear_solver");
-      const auto iterations = linear_solver->solve(correction, rhs);
+      const auto iterations =
+        solve_tangent(displacement,
+                      correction,
+                      rhs,
+                      forcing.next(norms.residual,
+                                   parameters.newton.tolerance * norms.scale));
       constraints.distribute(correction);
       correction += particular;
       displacement.zero_out_ghost_values();

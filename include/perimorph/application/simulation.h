@@ -128,6 +128,9 @@ namespace Perimorph::Application
     make_factor_memory() const;
     void
     report_set_up(const Method &method);
+    /// What the linear algebra and the output did not do.
+    void
+    report_skipped(const Method &method);
     /// A load step or arc step that was accepted.
     struct Step
     {

@@ -143,12 +143,18 @@ namespace Perimorph::Coupling
     std::vector<const Term *>
     assembled_terms() const;
 
-    /// Plain finite elements everywhere, the reference of the patch test and
-    /// the preconditioner of the coupled problem.
+    /// Plain finite elements everywhere, the reference of the patch test.
     const Fem::ElasticCells<dim> &
     full_elements() const
     {
       return *parts_to_share.all_cells;
+    }
+
+    /// Elements whose stiffness is close to that of the coupled problem.
+    const Fem::ElasticCells<dim> &
+    preconditioner_elements() const
+    {
+      return *preconditioner;
     }
 
     /// What stays the same while families change; none, on all ranks, if no
@@ -170,13 +176,12 @@ namespace Perimorph::Coupling
 
     /// Contribution::extrapolate_stress() of all terms; part of the solution
     /// procedure, not of the problem.
-    /// @param of_full_elements  also of full_elements(), which only a
-    ///                          preconditioner needs
+    /// @param of_preconditioner  also of preconditioner_elements()
     /// @throws Base::InadmissibleState  on all ranks
     void
     extrapolate_stress(const Vector &displacement,
                        const Vector &step,
-                       bool          of_full_elements) const;
+                       bool          of_preconditioner) const;
     void
     forget_stress() const;
 
@@ -272,14 +277,15 @@ namespace Perimorph::Coupling
                const Bonds::BrokenBonds   &broken,
                const Progress             &progress);
 
-    const Mesh::DistributedMesh<dim>  &mesh;
-    const BodyMaterials<dim>          &materials;
-    std::vector<unsigned int>          more_nodes;
-    SharedParts<dim>                   parts_to_share;
-    std::vector<std::shared_ptr<Term>> contributions;
-    std::vector<const Term *>          families;
-    BondSet                            bond_set;
-    Counts                             local_counts;
-    CrackReport                        cracked;
+    const Mesh::DistributedMesh<dim>       &mesh;
+    const BodyMaterials<dim>               &materials;
+    std::vector<unsigned int>               more_nodes;
+    SharedParts<dim>                        parts_to_share;
+    std::vector<std::shared_ptr<Term>>      contributions;
+    std::vector<const Term *>               families;
+    std::shared_ptr<Fem::ElasticCells<dim>> preconditioner;
+    BondSet                                 bond_set;
+    Counts                                  local_counts;
+    CrackReport                             cracked;
   };
 } // namespace Perimorph::Coupling

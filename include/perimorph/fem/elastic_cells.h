@@ -27,6 +27,11 @@ namespace Perimorph::Fem
                  const std::vector<double>  &element_weight,
                  const std::vector<bool>    &skip = {});
 
+    /// Weights the energy of the cells once more.
+    /// @param factors  one per block
+    void
+    scale(const std::vector<double> &factors);
+
     std::string
     name() const override;
     bool

@@ -6,6 +6,7 @@
 #include <perimorph/fem/supports.h>
 #include <perimorph/solvers/constraints.h>
 #include <perimorph/solvers/direct_solver.h>
+#include <perimorph/solvers/inexact_newton.h>
 #include <perimorph/solvers/newton.h>
 #include <perimorph/solvers/tangent.h>
 
@@ -41,7 +42,9 @@ namespace Perimorph::Solvers
 
   /// Finds the displacement whose internal forces balance the loads of a time:
   /// Newton's method on the coupled problem. A linear problem keeps its
-  /// factorisation (or preconditioner) over all steps and needs one iteration.
+  /// factorisation (or preconditioner) over all steps and needs one iteration;
+  /// other problems keep a preconditioner while it pays, and their linear
+  /// solves go as far as Newton's method has use for.
   template <int dim>
   class Equilibrium
   {
@@ -73,6 +76,19 @@ namespace Perimorph::Solvers
     is_linear() const
     {
       return problem.is_linear() && !follower.acts();
+    }
+
+    /// Linear systems solved, and how many factorisations or preconditioners
+    /// they took.
+    unsigned int
+    linear_solves() const
+    {
+      return n_linear_solves;
+    }
+    unsigned int
+    linear_solvers_made() const
+    {
+      return n_linear_solvers;
     }
 
     /// Solves at a time, starting from the displacement given, which is what it
@@ -155,6 +171,15 @@ namespace Perimorph::Solvers
     prepare_linear_solver(const Vector &displacement);
     void
     prepare_direct_solver(const Vector &displacement);
+    /// Solves with the tangent that was prepared; once more with a new
+    /// preconditioner if the one kept fails.
+    /// @param tolerance  relative residual
+    /// @return  linear iterations
+    unsigned int
+    solve_tangent(const Vector &displacement,
+                  Vector       &solution,
+                  const Vector &right_hand_side,
+                  double        tolerance);
     Terms
     tangent_terms() const;
     template <typename AnyMatrix>
@@ -183,7 +208,11 @@ namespace Perimorph::Solvers
     LocalMatrix                           local_matrix; ///< of a direct solver
     std::unique_ptr<TangentOperator<dim>> tangent;
     std::unique_ptr<LinearSolver>         linear_solver;
-    bool                                  pattern_is_made = false;
+    PreconditionerAge                     preconditioner_age;
+    bool                                  preconditioner_is_kept = false;
+    unsigned int                          n_linear_solves        = 0;
+    unsigned int                          n_linear_solvers       = 0;
+    bool                                  pattern_is_made        = false;
     Vector internal, external, dead_loads, out_of_balance, rhs, correction,
       particular, product;
     double largest_force = 0.;

@@ -30,11 +30,12 @@ namespace Perimorph::Solvers
   /// What the choice of the linear solver depends on.
   struct ProblemSize
   {
-    unsigned int dim            = 2;
-    std::size_t  n_dofs         = 0;
-    std::size_t  n_family_bonds = 0; ///< of the correspondence model
-    std::size_t  n_particles    = 0;
-    bool         symmetric      = true;
+    unsigned int dim         = 2;
+    std::size_t  n_dofs      = 0;
+    std::size_t  n_particles = 0;
+    std::size_t  n_bonds     = 0;     ///< of all particles, both directions
+    bool         families    = false; ///< bonds of the correspondence model
+    unsigned int n_ranks     = 1;
   };
 
   /// A decision and the reason that is printed with it.
@@ -43,12 +44,15 @@ namespace Perimorph::Solvers
     bool        direct;
     bool        matrix_free;
     std::string reason;
+    /// Matrix entries that a matrix-free product does without, about.
+    double entries_saved = 0.;
   };
 
   /// Chooses between a direct solve of the assembled tangent and conjugate
-  /// gradients, assembled or matrix-free, by the expected cost: factorisation
-  /// grows like n^1.5 in 2D and n^2 in 3D with a large factor for wide families
-  /// (toolchain.md, sections 3 and 4).
+  /// gradients, assembled or matrix-free, by the expected cost. In 2D a sparse
+  /// factorisation is faster than multigrid up to nearly a million unknowns of
+  /// elements; wide families bring that down by the square of the entries per
+  /// row. In 3D it is only for small problems (doc/performance).
   LinearSolverChoice
   choose_linear_solver(LinearSolverKind   solver,
                        TangentKind        tangent,
@@ -61,10 +65,11 @@ namespace Perimorph::Solvers
     virtual ~LinearSolver() = default;
 
     /// Solves A x = b with zero start value.
+    /// @param tolerance  relative residual; a direct solver goes to round-off
     /// @return number of iterations (1 for a direct solver)
     /// @throws Base::SolveError  breakdown or no convergence
     virtual unsigned int
-    solve(Vector &x, const Vector &b) = 0;
+    solve(Vector &x, const Vector &b, double tolerance) = 0;
   };
 
   /// Collective.
@@ -76,8 +81,7 @@ namespace Perimorph::Solvers
   /// multigrid, rigid-body near-null space and Chebyshev smoother.
   /// @param apply  product with the operator
   /// @param preconditioner_matrix  spectrally equivalent assembled matrix: the
-  ///        operator itself or the plain finite-element stiffness
-  /// @param tolerance  relative to the right-hand side
+  ///        operator itself or the plain finite-element stiffness; must stay
   /// @param on_iteration  called with the iteration and the relative residual
   template <int dim>
   std::unique_ptr<LinearSolver>
@@ -85,6 +89,5 @@ namespace Perimorph::Solvers
                         const Matrix                  &preconditioner_matrix,
                         const Fem::NodePartition<dim> &partition,
                         bool                           symmetric,
-                        double                         tolerance,
                         std::function<void(unsigned int, double)> on_iteration);
 } // namespace Perimorph::Solvers

@@ -95,7 +95,7 @@ namespace Perimorph::Solvers
         for (const auto &[place, value] : entries)
           if (owned.is_element(place.first))
             b(place.first) += value * known(place.second);
-        solver.solve(x, b);
+        solver.solve(x, b, 0.);
         double largest = 0.;
         for (const auto i : owned)
           largest = std::max(largest, std::abs(x(i) - known(i)));
