@@ -32,7 +32,8 @@ class Run:
 
     geometry, entries: tuples of (name, value); part: share of all nodes that
     peridynamics takes around the hole or cavity at the origin whose radius is
-    `radius`, or None.
+    `radius`, or None; slot: half the length of the row of cells along y = 0 that
+    is taken out of the mesh.
     """
     file: str
     geometry: tuple = ()
@@ -40,6 +41,7 @@ class Run:
     ranks: int = 1
     part: float = None
     radius: float = 0.
+    slot: float = 0.
 
 
 @dataclass
@@ -128,6 +130,8 @@ class Session:
 
     def command(self, run, output):
         mesh = self.mesh(run)
+        if run.slot:
+            mesh = without_slot(mesh, run.slot)
         entries = {
             "Mesh/file": mesh, "Mesh/geometry parameters": "",
             "Quantities/compare with finite elements": "false",
@@ -232,6 +236,45 @@ def distance_of_part(path, part, radius):
                 distances.append(sum(c * c for c in x)**.5 - radius)
     distances.sort()
     return distances[int(part * len(distances))]
+
+
+def without_slot(path, half_length):
+    """The mesh without the cells whose centre has |x| < half_length and lies
+    within a hundredth of their height of y = 0 (MSH 4.1, quadrilaterals)."""
+    found = path.with_name("%s_slot%.12g.msh" % (path.stem, half_length))
+    lines = path.read_text().splitlines()
+    points = {}
+    at = lines.index("$Nodes") + 2
+    for _ in range(int(lines[at - 1].split()[0])):
+        count = int(lines[at].split()[3])
+        for k in range(count):
+            points[lines[at + 1 + k]] = [
+                float(word) for word in lines[at + 1 + count + k].split()[:2]]
+        at += 1 + 2 * count
+
+    def stays(cell):
+        corners = [points[node] for node in cell.split()[1:]]
+        x, y = (sum(corner) / 4. for corner in zip(*corners))
+        height = max(c[1] for c in corners) - min(c[1] for c in corners)
+        return abs(x) > half_length or abs(y) > .01 * height
+
+    begin = lines.index("$Elements")
+    at, total, blocks = begin + 2, 0, []
+    for _ in range(int(lines[at - 1].split()[0])):
+        *entity, kind, count = lines[at].split()
+        cells = lines[at + 1:at + 1 + int(count)]
+        if kind == "3":
+            cells = [cell for cell in cells if stays(cell)]
+        if cells:
+            blocks += [" ".join(entity + [kind, str(len(cells))])] + cells
+            total += 1
+        at += 1 + int(count)
+    sizes = lines[begin + 1].split()
+    kept = len(blocks) - total
+    found.write_text("\n".join(
+        lines[:begin + 1] + ["%d %d %s %s" % (total, kept, *sizes[2:])] + blocks +
+        lines[at:]) + "\n")
+    return found
 
 
 def write_table(path, rows, keys):
