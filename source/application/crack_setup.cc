@@ -330,9 +330,13 @@ namespace Perimorph::Application
             const double reach =
               (is_solid ? 0. : region.horizon[n]) + 1e-9 * nodal.spacing[n];
             if (distance
-                  .closest_to_node(nodal,
-                                   n,
-                                   [&](const auto &) { return reach; })
+                  .closest_to_node(
+                    nodal,
+                    n,
+                    [&](const auto &) {
+                      return typename Mesh::FeatureDistance<dim>::Range{reach,
+                                                                        reach};
+                    })
                   .distance <= reach)
               found[n] = true;
           }

@@ -51,8 +51,8 @@ namespace Perimorph::Mesh
                              });
   }
 
-  /// Faces of a boundary, or the outer faces of a set of cells, with a search
-  /// tree of their nodes.
+  /// Faces of a boundary, or the outer faces of a set of cells, with search
+  /// trees of their corners and centres.
   template <int dim>
   class FeatureDistance<dim>::Facets
   {
@@ -63,46 +63,64 @@ namespace Perimorph::Mesh
     explicit Facets(std::vector<Facet> list)
       : facets(std::move(list))
       , corners(corner_points())
+      , centers(center_points())
     {
-      for (const auto &facet : facets)
-        for (unsigned int v = 1; v < n; ++v)
-          longest = std::max(longest, facet[0].distance(facet[v]));
+      for (unsigned int k = 0; k < facets.size(); ++k)
+        for (const auto &corner : facets[k])
+          radius = std::max(radius, centers.points()[k].distance(corner));
     }
 
     ClosestPoint<dim>
-    closest(const dealii::Point<dim> &point, const Reach &reach) const
+    closest(const dealii::Point<dim> &point, const RangeOf &range_of) const
     {
-      // The nearest corner bounds the distance; a facet that is nearer has all
-      // its corners within that bound plus its diameter, the first one too.
       const auto        nearest = corners.nearest(point);
       ClosestPoint<dim> best{nearest.second, corners.points()[nearest.first]};
-      if (best.distance - longest > reach(best.point))
+      const auto        range = range_of(best.point);
+      if (best.distance <= range.lower ||
+          best.distance - 2. * radius > range.upper)
         return best;
+      const auto look_at = [&](const unsigned int k) {
+        const auto   on_facet = closest_on(facets[k], point);
+        const double distance = on_facet.distance(point);
+        if (distance < best.distance)
+          best = {distance, on_facet};
+      };
+      // A good bound first: a facet that is nearer has its centre within the
+      // bound plus the radius.
+      look_at(centers.nearest(point).first);
       std::vector<unsigned int> near;
-      corners.within(point, best.distance + longest, near);
+      centers.within(point, best.distance + radius, near);
       for (const unsigned int k : near)
-        {
-          if (k % n != 0)
-            continue;
-          const auto   on_facet = closest_on(facets[k / n], point);
-          const double distance = on_facet.distance(point);
-          if (distance < best.distance)
-            best = {distance, on_facet};
-        }
+        if (centers.points()[k].distance(point) - radius < best.distance)
+          look_at(k);
       return best;
     }
 
-    std::vector<Facet>    facets;
-    Base::PointCloud<dim> corners;
-    double                longest = 0.;
-
   private:
+    std::vector<Facet>    facets;
+    Base::PointCloud<dim> corners, centers;
+    double                radius = 0.; ///< largest, of a facet from its centre
+
     std::vector<dealii::Point<dim>>
     corner_points() const
     {
       std::vector<dealii::Point<dim>> points;
       for (const auto &facet : facets)
         points.insert(points.end(), facet.begin(), facet.end());
+      return points;
+    }
+
+    std::vector<dealii::Point<dim>>
+    center_points() const
+    {
+      std::vector<dealii::Point<dim>> points;
+      for (const auto &facet : facets)
+        {
+          dealii::Tensor<1, dim> sum;
+          for (const auto &corner : facet)
+            sum += corner;
+          points.emplace_back(sum / double(n));
+        }
       return points;
     }
 
@@ -206,17 +224,17 @@ namespace Perimorph::Mesh
   ClosestPoint<dim>
   FeatureDistance<dim>::closest_to_node(const NodalMesh<dim> &mesh,
                                         const unsigned int    node,
-                                        const Reach          &reach) const
+                                        const RangeOf        &range) const
   {
     if (!inside.empty() && inside[node])
       return {0., mesh.nodes[node]};
-    return closest(mesh.nodes[node], reach);
+    return closest(mesh.nodes[node], range);
   }
 
   template <int dim>
   ClosestPoint<dim>
   FeatureDistance<dim>::closest(const dealii::Point<dim> &point,
-                                const Reach              &reach) const
+                                const RangeOf            &range) const
   {
     using Parameters::FeatureKind;
     const auto &x = feature.numbers;
@@ -224,7 +242,7 @@ namespace Perimorph::Mesh
       {
         case FeatureKind::boundary:
         case FeatureKind::volume:
-          return facets->closest(point, reach);
+          return facets->closest(point, range);
         case FeatureKind::point:
           {
             const auto p = read_point<dim>(x, 0);

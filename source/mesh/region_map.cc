@@ -129,17 +129,18 @@ namespace Perimorph::Mesh
                                     ? 0.
                                     : length(parameters.blending_width));
           };
-          // Twice: the horizon at the nearest point may differ a little from
-          // that at the nearest corner.
-          const auto reach = [&](const dealii::Point<dim> &place) {
+          // With some slack: the horizon at the nearest point may differ a
+          // little from that at the nearest corner.
+          const auto range = [&](const dealii::Point<dim> &place) {
             const auto [core, band] = sizes(place);
-            return 2. * (core + band);
+            return typename FeatureDistance<dim>::Range{.8 * core,
+                                                        2. * (core + band)};
           };
           for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
             {
               if (map.alpha[n] == 1.)
                 continue;
-              const auto closest = distance.closest_to_node(nodal, n, reach);
+              const auto closest = distance.closest_to_node(nodal, n, range);
               const auto [core, band] = sizes(closest.point);
               // Slack: a node exactly at the edge of the core is in it.
               const double beyond = closest.distance - core * (1. + 1e-10);

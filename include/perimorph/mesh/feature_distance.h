@@ -34,20 +34,26 @@ namespace Perimorph::Mesh
     ~FeatureDistance();
     FeatureDistance(FeatureDistance &&) noexcept;
 
-    /// How far from a place on the feature anything depends on the distance.
-    using Reach = std::function<double(const dealii::Point<dim> &)>;
+    /// Between which distances from a place on the feature anything depends on
+    /// the distance.
+    struct Range
+    {
+      double lower, upper;
+    };
+    using RangeOf = std::function<Range(const dealii::Point<dim> &)>;
 
     /// For a node of the mesh; zero for the nodes of a named volume.
-    /// @param reach  a node that is certainly farther away than this gets the
-    ///               nearest corner of the feature instead of the nearest point
+    /// @param range  a node that is certainly nearer or farther gets the
+    /// nearest
+    ///               corner of the feature instead of the nearest point
     ClosestPoint<dim>
     closest_to_node(const NodalMesh<dim> &mesh,
                     unsigned int          node,
-                    const Reach          &reach) const;
+                    const RangeOf        &range) const;
 
   private:
     ClosestPoint<dim>
-    closest(const dealii::Point<dim> &point, const Reach &reach) const;
+    closest(const dealii::Point<dim> &point, const RangeOf &range) const;
 
     class Facets;
     Parameters::Feature     feature;

@@ -39,7 +39,9 @@ namespace Perimorph::Mesh
           const auto  closest = distance.closest_to_node(
             mesh.nodal(),
             n,
-            [](const dealii::Point<dim> &) { return 10.; });
+            [](const dealii::Point<dim> &) {
+              return typename FeatureDistance<dim>::Range{0., 10.};
+            });
           worst = std::max(worst, std::abs(closest.distance - formula(x)));
           worst =
             std::max(worst,
