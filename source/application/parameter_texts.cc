@@ -248,8 +248,8 @@ namespace Perimorph::Application
     prm.add_parameter("linear tolerance",
                       linear_tolerance,
                       "Relative residual at which the iterative solver stops "
-                      "at the latest; it goes no further than the Newton "
-                      "tolerance has use for.",
+                      "at the latest; Newton steps of problems that are not "
+                      "linear go as far as they have use for.",
                       Double(1e-15, 1e-2));
     prm.add_parameter("Newton tolerance",
                       newton_tolerance,

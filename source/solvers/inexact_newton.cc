@@ -13,13 +13,13 @@ namespace Perimorph::Solvers
   double
   ForcingTerm::next(const double residual, const double goal)
   {
+    if (linear)
+      return tightest;
     constexpr double first = 1e-2, largest = 0.1, gamma = 0.9;
     // A tenth of what is left to the goal.
     const double enough = residual > 0. ? 0.1 * goal / residual : 0.;
-    double       term   = 0.;
-    if (!linear && last_residual == 0.)
-      term = first;
-    else if (!linear)
+    double       term   = first;
+    if (last_residual > 0.)
       {
         const double ratio = residual / last_residual;
         term               = gamma * ratio * ratio;

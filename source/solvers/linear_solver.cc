@@ -40,8 +40,9 @@ namespace Perimorph::Solvers
         // factorisation does not.
         const double cost =
           size.n_dofs * std::pow(fill_ratio, size.dim == 2 ? 2. : 1.);
-        const double limit = (size.dim == 2 ? 800000. : 6000.) /
-                             (double(size.n_ranks) * size.n_ranks);
+        const double limit =
+          size.dim == 3 ? 6000.
+                        : 800000. / (double(size.n_ranks) * size.n_ranks);
         choice.direct = cost < limit;
         reason << (choice.direct ? ": small enough to factorise"
                                  : ": too large to factorise cheaply");

@@ -10,7 +10,7 @@ namespace Perimorph::Solvers
   {
   public:
     /// @param tightest  relative residual below which no solve goes
-    /// @param linear    one solve has to be enough
+    /// @param linear    there is one solve
     ForcingTerm(double tightest, bool linear);
 
     /// @param residual  norm of the out-of-balance forces now
