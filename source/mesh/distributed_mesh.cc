@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 namespace Perimorph::Mesh
 {
@@ -68,6 +69,11 @@ namespace Perimorph::Mesh
             node_of_point[cell->vertex_index(v)] = node;
           }
       }
+    for (const auto &[point, parents] : gmsh_mesh.hanging)
+      for (const auto &[parent, weight] : parents)
+        nodal_mesh.hanging[node_of_point[point]].emplace_back(
+          node_of_point[parent],
+          weight);
     const unsigned int rank =
       dealii::Utilities::MPI::this_mpi_process(mpi_communicator);
     const auto owned_counts = dealii::Utilities::MPI::all_gather(
@@ -114,6 +120,16 @@ namespace Perimorph::Mesh
     };
     std::sort(faces.begin(), faces.end(), before);
 
+    std::set<Face> hanging;
+    const auto     sorted_nodes = [this](Face face) {
+      for (auto &point : face)
+        point = node_of_point[point];
+      std::sort(face.begin(), face.end());
+      return face;
+    };
+    for (const auto &face : gmsh_mesh.hanging_faces)
+      hanging.insert(sorted_nodes(face));
+
     // Surface faces occur once. Index by the sorted nodes to find groups.
     std::map<Face, unsigned int> surface;
     for (std::size_t k = 0; k < faces.size(); ++k)
@@ -121,7 +137,7 @@ namespace Perimorph::Mesh
         const bool shared =
           (k > 0 && faces[k - 1].sorted == faces[k].sorted) ||
           (k + 1 < faces.size() && faces[k + 1].sorted == faces[k].sorted);
-        if (shared)
+        if (shared || hanging.count(faces[k].sorted) > 0)
           continue;
         surface[faces[k].sorted] = nodal_mesh.boundary_faces.size();
         nodal_mesh.boundary_faces.push_back(
@@ -136,12 +152,9 @@ namespace Perimorph::Mesh
     for (const auto &group : gmsh_mesh.surfaces)
       {
         auto &list = boundaries[group.first];
-        for (Face face : group.second)
+        for (const Face &face : group.second)
           {
-            for (auto &point : face)
-              point = node_of_point[point];
-            std::sort(face.begin(), face.end());
-            const auto found = surface.find(face);
+            const auto found = surface.find(sorted_nodes(face));
             if (found == surface.end())
               continue; // interior surface: an interface or a crack
             list.push_back(found->second);

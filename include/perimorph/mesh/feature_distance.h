@@ -51,6 +51,12 @@ namespace Perimorph::Mesh
                     unsigned int          node,
                     const RangeOf        &range) const;
 
+    /// For the centroid of a cell; zero for the cells of a named volume.
+    ClosestPoint<dim>
+    closest_to_cell(const NodalMesh<dim> &mesh,
+                    unsigned int          cell,
+                    const Reach          &reach) const;
+
   private:
     ClosestPoint<dim>
     closest(const dealii::Point<dim> &point, const RangeOf &range) const;

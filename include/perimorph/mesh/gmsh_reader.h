@@ -1,5 +1,7 @@
 #pragma once
 
+#include <perimorph/mesh/hanging_points.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/point.h>
 
@@ -28,6 +30,10 @@ namespace Perimorph::Mesh
     /// their places: drawn, not meshed.
     std::map<std::string, std::vector<std::array<dealii::Point<dim>, dim>>>
       drawn;
+    /// What local refinement leaves; none in a file.
+    HangingPoints hanging;
+    /// Faces between cells of different size, of both sides.
+    std::vector<Face> hanging_faces;
   };
 
   /// Reads a gmsh mesh (.msh of any version) or meshes a geometry (.geo) with

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <perimorph/base/csr.h>
+#include <perimorph/mesh/hanging_points.h>
 
 #include <deal.II/base/point.h>
 
@@ -44,6 +45,7 @@ namespace Perimorph
       std::vector<dealii::Point<dim>> cell_centroid; ///< mean of the vertices
       Base::Csr<unsigned int>         node_cells;    ///< cells around each node
       std::vector<BoundaryFace<dim>>  boundary_faces;
+      HangingPoints                   hanging; ///< nodes without unknowns
 
       std::vector<double> volume; ///< V_i = integral of the shape function
       std::vector<double>
@@ -69,6 +71,12 @@ namespace Perimorph
       owns_node(const unsigned int node) const
       {
         return node >= owned_begin && node < owned_end;
+      }
+
+      bool
+      hangs(const unsigned int node) const
+      {
+        return !hanging.empty() && hanging.count(node) > 0;
       }
 
       bool
