@@ -4,6 +4,7 @@
 #include <perimorph/coupling/correspondence_term.h>
 #include <perimorph/coupling/coupled_problem.h>
 #include <perimorph/coupling/virial_field.h>
+#include <perimorph/fem/nodal_values.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -204,6 +205,8 @@ namespace Perimorph::Coupling
           reference = 0.;
           parts_to_share.all_cells->add_residual(displacement, reference);
           reference.compress(dealii::VectorOperation::add);
+          Fem::condense_hanging(nodal.hanging, partition(), forces);
+          Fem::condense_hanging(nodal.hanging, partition(), reference);
 
           // Relative to the stiffest material at the node.
           std::vector<double> stress;

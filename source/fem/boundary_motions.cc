@@ -3,6 +3,7 @@
 #include <perimorph/fem/rigid_motion.h>
 #include <perimorph/fem/supports.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -66,7 +67,13 @@ namespace Perimorph::Fem
   {
     const std::string used_by =
       "parameter 'Boundary conditions / " + entry + "'";
-    const auto nodes = mesh.boundary_nodes(motion.boundary, used_by);
+    auto nodes = mesh.boundary_nodes(motion.boundary, used_by);
+    nodes.erase(std::remove_if(nodes.begin(),
+                               nodes.end(),
+                               [this](const unsigned int n) {
+                                 return mesh.nodal().hangs(n);
+                               }),
+                nodes.end());
     for (const unsigned int node : nodes)
       {
         std::string other;
@@ -108,7 +115,17 @@ namespace Perimorph::Fem
     double     total  = 0.;
     for (const auto &entry : areas)
       total += entry.second;
-    const auto add_row = [&](const LinearConstraint &mean) {
+    const auto add_row = [&](LinearConstraint mean) {
+      for (const auto &[node, parents] : mesh.nodal().hanging)
+        for (int d = 0; d < dim; ++d)
+          {
+            const auto found = mean.factors.find(dim * node + d);
+            if (found == mean.factors.end())
+              continue;
+            for (const auto &[parent, weight] : parents)
+              mean.factors[dim * parent + d] += weight * found->second;
+            mean.factors.erase(found);
+          }
       bool free = false;
       for (const auto &entry : mean.factors)
         free = free || prescribed.count(entry.first) == 0;

@@ -251,6 +251,15 @@ namespace Perimorph::Fem
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       if (mesh.owns_cell(c))
         needed.insert(needed.end(), mesh.cells[c].begin(), mesh.cells[c].end());
+    if (mesh.hanging.empty())
+      return;
+    for (std::size_t k = 0, n = needed.size(); k < n; ++k)
+      {
+        const auto found = mesh.hanging.find(needed[k]);
+        if (found != mesh.hanging.end())
+          for (const auto &parent : found->second)
+            needed.push_back(parent.first);
+      }
   }
 
   template class ElasticCells<2>;

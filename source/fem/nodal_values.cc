@@ -35,11 +35,38 @@ namespace Perimorph::Fem
         vector.local_element(dim * n + d) = values[partition.global(n)][d];
   }
 
+  template <int dim>
+  void
+  condense_hanging(const Mesh::HangingPoints &hanging,
+                   const NodePartition<dim>  &partition,
+                   Vector                    &force)
+  {
+    if (hanging.empty())
+      return;
+    force.zero_out_ghost_values();
+    const auto &owned = partition.owned_dofs();
+    for (const auto &[node, parents] : hanging)
+      if (owned.is_element(dim * node))
+        for (int d = 0; d < dim; ++d)
+          {
+            double &value =
+              force.local_element(dim * partition.local(node) + d);
+            for (const auto &[parent, weight] : parents)
+              force.local_element(dim * partition.local(parent) + d) +=
+                weight * value;
+            value = 0.;
+          }
+    force.compress(dealii::VectorOperation::add);
+  }
+
 #define PERIMORPH_INSTANTIATE(dim)                                            \
   template std::vector<dealii::Tensor<1, dim>> to_nodal_values(               \
     const Vector &,                                                           \
     const NodePartition<dim> &);                                              \
   template void set_nodal_values(const std::vector<dealii::Tensor<1, dim>> &, \
+                                 const NodePartition<dim> &,                  \
+                                 Vector &);                                   \
+  template void condense_hanging(const Mesh::HangingPoints &,                 \
                                  const NodePartition<dim> &,                  \
                                  Vector &);
 

@@ -196,7 +196,7 @@ namespace Perimorph::Fem
         double       best   = 0.;
         unsigned int pin    = 0;
         for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
-          if (pieces[n] == motion.piece)
+          if (pieces[n] == motion.piece && !nodal.hangs(n))
             for (int d = 0; d < dim; ++d)
               {
                 const double value  = std::abs(motion.at(nodal.nodes[n])[d]);

@@ -38,9 +38,12 @@ namespace Perimorph::Fem
     for (int d = 0; d < dim; ++d)
       point[d] = coordinates[d];
     unsigned int nearest = 0;
-    for (unsigned int n = 1; n < mesh.n_nodes(); ++n)
+    while (mesh.hangs(nearest))
+      ++nearest;
+    for (unsigned int n = nearest + 1; n < mesh.n_nodes(); ++n)
       if (mesh.nodes[n].distance_square(point) <
-          mesh.nodes[nearest].distance_square(point))
+            mesh.nodes[nearest].distance_square(point) &&
+          !mesh.hangs(n))
         nearest = n;
     const double distance = mesh.nodes[nearest].distance(point);
     if (distance > mesh.spacing[nearest])
@@ -127,6 +130,9 @@ namespace Perimorph::Fem
                      const Entry               &entry,
                      const std::vector<double> &times)
   {
+    // Its parents are on the same surface and take it along.
+    if (mesh.nodal().hangs(dof / dim))
+      return;
     const auto &position   = mesh.nodal().nodes[dof / dim];
     const auto *expression = entry.expression;
     if (expression)

@@ -67,6 +67,7 @@ namespace Perimorph::Fracture
     q.reserve(mesh.n_nodes());
     for (const auto &node : mesh.nodes)
       q.push_back(annulus.weight(node.distance(tip)));
+    Mesh::set_hanging_values(mesh.hanging, q);
     return q;
   }
 

@@ -36,6 +36,7 @@ namespace Perimorph::Fracture
             tent(front, domain, place.arc_length) *
             domain.annulus.weight(mesh.nodes[n].distance(place.frame.origin));
         }
+    Mesh::set_hanging_values(mesh.hanging, q);
     return q;
   }
 

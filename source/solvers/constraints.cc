@@ -1,4 +1,5 @@
 #include <perimorph/base/exceptions.h>
+#include <perimorph/fem/nodal_values.h>
 #include <perimorph/fem/rigid_motion.h>
 #include <perimorph/solvers/constraints.h>
 
@@ -52,9 +53,11 @@ namespace Perimorph::Solvers
   template <int dim>
   Constraints<dim>::Constraints(const Fem::NodePartition<dim> &partition,
                                 const Fem::Supports<dim>      &supports,
+                                const Mesh::HangingPoints     &hanging,
                                 const bool                     small_rotations)
     : partition(partition)
     , supports(supports)
+    , hanging(hanging)
     , small_rotations(small_rotations)
   {
     std::set<unsigned int> supported;
@@ -237,6 +240,14 @@ namespace Perimorph::Solvers
             for (unsigned int m = 0; m < plate.masters.size(); ++m)
               affine.add_entry(dof, plate.masters[m], entries(0, m));
           }
+    for (const auto &[node, parents] : hanging)
+      for (int d = 0; d < dim; ++d)
+        if (relevant.is_element(dim * node + d))
+          {
+            affine.add_line(dim * node + d);
+            for (const auto &[parent, weight] : parents)
+              affine.add_entry(dim * node + d, dim * parent + d, weight);
+          }
     affine.close();
   }
 
@@ -253,6 +264,34 @@ namespace Perimorph::Solvers
 
   template <int dim>
   void
+  Constraints<dim>::condense_hanging(Vector &force) const
+  {
+    Fem::condense_hanging(hanging, partition, force);
+  }
+
+  template <int dim>
+  void
+  Constraints<dim>::set_hanging(Vector &displacement) const
+  {
+    if (hanging.empty())
+      return;
+    displacement.update_ghost_values();
+    const auto &owned = partition.owned_dofs();
+    for (const auto &[node, parents] : hanging)
+      for (int d = 0; d < dim; ++d)
+        if (owned.is_element(dim * node + d))
+          {
+            double value = 0.;
+            for (const auto &[parent, weight] : parents)
+              value +=
+                weight * displacement.local_element(local(dim * parent + d));
+            displacement.local_element(local(dim * node + d)) = value;
+          }
+    displacement.zero_out_ghost_values();
+  }
+
+  template <int dim>
+  void
   Constraints<dim>::condense(Vector &force) const
   {
     force.zero_out_ghost_values();
@@ -265,7 +304,7 @@ namespace Perimorph::Solvers
           for (const auto &entry : line.entries)
             force.local_element(local(entry.first)) += entry.second * value;
         }
-    if (couple_unknowns())
+    if (couple_unknowns() || !hanging.empty())
       force.compress(dealii::VectorOperation::add);
   }
 
@@ -273,7 +312,7 @@ namespace Perimorph::Solvers
   void
   Constraints<dim>::distribute(Vector &increment) const
   {
-    if (couple_unknowns())
+    if (couple_unknowns() || !hanging.empty())
       increment.update_ghost_values();
     const auto &owned = partition.owned_dofs();
     for (const auto &line : affine.get_lines())
@@ -342,6 +381,7 @@ namespace Perimorph::Solvers
                 (velocities(plate, {dim * node + d}, all_below(n_motions)) *
                  change)(0);
       }
+    set_hanging(increment);
     const double size = increment.linfty_norm();
     // Below round-off of the displacement the supports are where they belong.
     return size > 1e-13 * (size + displacement.linfty_norm());
@@ -393,6 +433,7 @@ namespace Perimorph::Solvers
           }
         linearize(plate);
       }
+    set_hanging(displacement);
     make_lines();
   }
 

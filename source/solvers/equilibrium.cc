@@ -12,6 +12,28 @@ namespace Perimorph::Solvers
 {
   namespace
   {
+    /// Whether families of any rank have a hanging node.
+    template <int dim>
+    bool
+    families_hang(const Coupling::CoupledProblem<dim> &problem,
+                  const Mesh::HangingPoints           &hanging)
+    {
+      bool                      found = false;
+      std::vector<unsigned int> nodes;
+      if (!hanging.empty())
+        for (const auto *term : problem.family_terms())
+          for (unsigned int block = 0; block < term->n_blocks(); ++block)
+            {
+              term->block_nodes(block, nodes);
+              for (const unsigned int node : nodes)
+                found =
+                  found || hanging.count(problem.partition().global(node)) > 0;
+            }
+      return dealii::Utilities::MPI::max(found ? 1 : 0,
+                                         problem.partition().communicator()) ==
+             1;
+    }
+
     template <int dim>
     ProblemSize
     problem_size(const Coupling::CoupledProblem<dim> &problem)
@@ -46,7 +68,10 @@ namespace Perimorph::Solvers
     , solver_choice(choose_linear_solver(parameters.linear_solver,
                                          parameters.tangent,
                                          problem_size(problem)))
-    , constraints(problem.partition(), supports, problem.is_linear())
+    , constraints(problem.partition(),
+                  supports,
+                  mesh.nodal().hanging,
+                  problem.is_linear())
     , assembler(problem.partition(), constraints.lines())
     , preconditioner_age(20.)
   {
@@ -54,6 +79,12 @@ namespace Perimorph::Solvers
       {
         solver_choice.matrix_free = false;
         solver_choice.reason += "; assembled because supports couple unknowns";
+      }
+    if (solver_choice.matrix_free &&
+        families_hang(problem, mesh.nodal().hanging))
+      {
+        solver_choice.matrix_free = false;
+        solver_choice.reason += "; assembled because of hanging nodes";
       }
     const auto &partition = problem.partition();
     for (auto *vector : {&internal,
@@ -253,6 +284,7 @@ namespace Perimorph::Solvers
     dead_loads = 0.;
     loads.add_forces(time, problem.partition(), dead_loads);
     dead_loads.compress(dealii::VectorOperation::add);
+    constraints.condense_hanging(dead_loads);
     follower.set_time(time);
   }
 
@@ -282,12 +314,14 @@ namespace Perimorph::Solvers
     const auto timer = timing.scope("assembly");
     displacement.update_ghost_values();
     problem.internal_forces(displacement, internal);
+    constraints.condense_hanging(internal);
     external.zero_out_ghost_values();
     external = 0.;
     if (follower.acts())
       {
         follower.add_residual(displacement, external);
         external.compress(dealii::VectorOperation::add);
+        constraints.condense_hanging(external);
       }
     external.sadd(-1., 1., dead_loads);
     out_of_balance.zero_out_ghost_values();

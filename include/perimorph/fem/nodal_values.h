@@ -20,4 +20,12 @@ namespace Perimorph::Fem
   set_nodal_values(const std::vector<dealii::Tensor<1, dim>> &values,
                    const NodePartition<dim>                  &partition,
                    Vector                                    &vector);
+
+  /// Hands forces on hanging nodes to their parents, whose motion they follow.
+  /// On return owned entries are complete. Collective.
+  template <int dim>
+  void
+  condense_hanging(const Mesh::HangingPoints &hanging,
+                   const NodePartition<dim>  &partition,
+                   Vector                    &force);
 } // namespace Perimorph::Fem

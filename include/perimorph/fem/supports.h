@@ -40,7 +40,8 @@ namespace Perimorph::Fem
     const Parameters::Expression                   *rotation;    ///< null: free
   };
 
-  /// Prescribed displacements of all nodes, identical on every rank.
+  /// Prescribed displacements of all nodes, identical on every rank. Hanging
+  /// nodes follow their parents and are never held themselves.
   template <int dim>
   class Supports
   {
@@ -146,7 +147,7 @@ namespace Perimorph::Fem
     std::map<unsigned int, std::string> held_as_a_whole; ///< node, boundary
   };
 
-  /// Node nearest to a point.
+  /// Node nearest to a point, of those that do not hang.
   /// @throws Base::InputError  the point is farther from the body than the
   ///                           spacing there
   template <int dim>

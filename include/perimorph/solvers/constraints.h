@@ -15,17 +15,20 @@ namespace Perimorph::Solvers
   /// The supports as constraints on increments: a prescribed value has a zero
   /// line, the mean of a boundary makes one of its unknowns depend on the
   /// others, a rigid plate makes all of its unknowns depend on as many as the
-  /// plate has free motions. Lines are homogeneous; what the prescribed values
-  /// change is the particular increment. Plates turn by finite rotations, so
-  /// their lines follow the motion (masters stay).
+  /// plate has free motions, a hanging node follows its parents. Lines are
+  /// homogeneous; what the prescribed values change is the particular
+  /// increment. Plates turn by finite rotations, so their lines follow the
+  /// motion (masters stay).
   template <int dim>
   class Constraints
   {
   public:
+    /// @param hanging  nodes of the whole mesh
     /// @param small_rotations  keep plates at the tangent of the reference
     /// state
     Constraints(const Fem::NodePartition<dim> &partition,
                 const Fem::Supports<dim>      &supports,
+                const Mesh::HangingPoints     &hanging,
                 bool                           small_rotations);
 
     const dealii::AffineConstraints<double> &
@@ -34,7 +37,7 @@ namespace Perimorph::Solvers
       return affine;
     }
 
-    /// Some unknowns depend on others.
+    /// Some unknowns depend on others because of supports.
     bool
     couple_unknowns() const
     {
@@ -51,6 +54,15 @@ namespace Perimorph::Solvers
     /// Norm of a force over all supported unknowns (reactions).
     double
     support_norm(const Vector &force) const;
+
+    /// Hands forces on hanging nodes to their parents; on return owned entries
+    /// are complete.
+    void
+    condense_hanging(Vector &force) const;
+
+    /// Gives hanging nodes the mean displacement of their parents.
+    void
+    set_hanging(Vector &displacement) const;
 
     /// Adds the entries of dependent unknowns to those they depend on, sets
     /// them to zero; on return owned entries are complete.
@@ -146,6 +158,7 @@ namespace Perimorph::Solvers
 
     const Fem::NodePartition<dim>    &partition;
     const Fem::Supports<dim>         &supports;
+    const Mesh::HangingPoints        &hanging;
     bool                              small_rotations;
     std::vector<Row>                  rows;
     std::vector<Plate>                plates;
