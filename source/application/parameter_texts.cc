@@ -37,6 +37,39 @@ namespace Perimorph::Application
                       geometry_parameters,
                       "Values for DefineConstant of a .geo: nr = 24, nt = 12.",
                       Anything());
+    prm.enter_subsection("Refinement");
+    prm.add_parameter(
+      "target spacing",
+      target_spacing,
+      "Cells in the peridynamic region (in finite elements: where it would be) "
+      "are halved until their edges are not longer than this on average "
+      "[length]; 0: the mesh stays as it is.",
+      Double(0.));
+    prm.add_parameter("around",
+                      refined_places,
+                      "Other places with this spacing, as in 'Peridynamics / "
+                      "around'.",
+                      Anything());
+    prm.add_parameter("distance",
+                      refined_distance,
+                      "How far it reaches beyond the peridynamic region and "
+                      "these places: a length, or '1 horizons'.",
+                      Anything());
+    prm.add_parameter("grading",
+                      grading,
+                      "How much longer cells may be per distance from there "
+                      "[-]; 1000: as the file has them, beside a difference of "
+                      "one halving between neighbours.",
+                      PositiveDouble());
+    prm.add_parameter(
+      "curved boundaries",
+      curved_boundaries,
+      "A mesh has no curves. automatic: new nodes of named boundaries whose "
+      "nodes lie on a circle, a sphere or a cylinder along an axis are put on "
+      "it, in 2D those of other smooth ones on a spline; straight: all sides "
+      "of cells stay as they are.",
+      choice({"automatic", "straight"}));
+    prm.leave_subsection();
     prm.leave_subsection();
 
     prm.enter_subsection("Material");

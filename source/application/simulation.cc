@@ -170,6 +170,7 @@ namespace Perimorph::Application
     const auto timer = timing.scope("setup");
     Method     method;
     method.region = region;
+    warn_of_hanging_families(region);
     std::unique_ptr<Base::Progress> progress;
     const auto report = [&](const std::size_t done, const std::size_t total) {
       if (!progress)
@@ -256,6 +257,8 @@ namespace Perimorph::Application
     result->set("counts", "nodes", nodal.n_nodes());
     result->set("counts", "dofs", dim * nodal.n_nodes());
     result->set("counts", "cells", nodal.n_cells());
+    if (!nodal.hanging.empty())
+      result->set("counts", "hanging_nodes", nodal.hanging.size());
     result->set("counts", "active_cells", counts.active_cells);
     result->set("counts", "particles", counts.particles);
     result->set("counts", "bonds", counts.bonds);

@@ -97,6 +97,7 @@ namespace Perimorph::Application
                                             errors);
     read_materials(texts, errors);
     read_region(texts, errors);
+    read_refinement(texts, errors);
     read_boundary_conditions(texts, errors);
     read_quantities(texts, parameter_file, errors);
     read_cracks(texts, errors);
@@ -200,6 +201,29 @@ namespace Perimorph::Application
       coupling.scale =
         from_name<Coupling::StabilizationScale>(texts.stabilization_scale,
                                                 {"bending", "shear modulus"});
+  }
+
+  template <int dim>
+  void
+  SimulationParameters<dim>::read_refinement(const ParameterTexts      &texts,
+                                             Base::InputErrorCollector &errors)
+  {
+    const std::string section = "Mesh / Refinement / ";
+    refinement.spacing        = texts.target_spacing;
+    refinement.features       = Parameters::parse_features(section + "around",
+                                                     texts.refined_places,
+                                                     dim,
+                                                     errors);
+    refinement.distance       = Parameters::parse_length(section + "distance",
+                                                   texts.refined_distance,
+                                                   false,
+                                                   errors);
+    refinement.grading        = texts.grading;
+    refinement.find_curves    = texts.curved_boundaries == "automatic";
+    if (refinement.spacing == 0. && !refinement.features.empty())
+      errors.add_parameter(section + "target spacing",
+                           "0 with '" + section + "around'",
+                           "a number > 0");
   }
 
   template <int dim>

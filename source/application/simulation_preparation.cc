@@ -22,15 +22,8 @@ namespace Perimorph::Application
     read_mesh();
     Base::InputErrorCollector errors;
     const auto                times = parameters.times();
+    errors.collect([&]() { place_region(); });
     errors.collect([&]() { assign_materials(); });
-    errors.collect([&]() {
-      const auto region_timer = timing.scope("regions");
-      place_cracks();
-      region = make_region_map(*mesh, parameters.region);
-      check_cracks();
-      is_protected =
-        protected_nodes(*mesh, region, parameters.growth.protected_features);
-    });
     errors.collect([&]() {
       supports =
         std::make_unique<Fem::Supports<dim>>(*mesh,
@@ -56,6 +49,7 @@ namespace Perimorph::Application
         errors.collect([&]() { hold_rigid_motion(); });
       }
     errors.throw_if_any();
+    report_refinement();
     warn_if_nothing_happens();
     if (parameters.growth.bonds)
       {
@@ -101,6 +95,24 @@ namespace Perimorph::Application
                 "boundary ('traction').";
         log.warning(text.str());
       }
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::place_region()
+  {
+    const auto timer    = timing.scope("regions");
+    const auto features = parameters.region.features;
+    do
+      {
+        parameters.region.features = features;
+        place_cracks();
+        region = make_region_map(*mesh, parameters.region);
+      }
+    while (refine_beside_families());
+    check_cracks();
+    is_protected =
+      protected_nodes(*mesh, region, parameters.growth.protected_features);
   }
 
   template <int dim>
@@ -191,13 +203,15 @@ namespace Perimorph::Application
     const auto &file  = parameters.mesh_file;
     const auto  gmsh_mesh =
       Mesh::read_gmsh<dim>(file, parameters.geometry_parameters, communicator);
-    mesh =
-      std::make_unique<Mesh::DistributedMesh<dim>>(gmsh_mesh, communicator);
     parameters.pre_cracks = read_crack_groups(gmsh_mesh, parameters.pre_cracks);
-    const auto &nodal     = mesh->nodal();
+    make_mesh(gmsh_mesh);
+    const auto &nodal = mesh->nodal();
+    n_coarse_nodes    = nodal.n_nodes();
     log << "Mesh: " << file << "\n  " << nodal.n_nodes() << " nodes, "
         << nodal.n_cells() << " cells; boundaries: ";
     log << Base::join_names(mesh->boundary_names()) << std::endl;
+    if (parameters.refinement.spacing > 0.)
+      refine_mesh(gmsh_mesh);
   }
 
   template <int dim>

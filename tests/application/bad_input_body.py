@@ -36,6 +36,41 @@ SLIT = {"Mode": "finite elements",
         "Mesh/file": os.path.join(MESHES, "plate_slit.geo"),
         "Mesh/geometry parameters": "dx = 0.2, nf = 2, q = 1.5"}
 
+SPACING = "Mesh/Refinement/target spacing"
+REFINED = "Mesh/Refinement/around"
+DISTANCE = "Mesh/Refinement/distance"
+
+REFINEMENT = [
+    row("negative target spacing", [
+        "'Mesh / Refinement / target spacing'", "found '-1'", "a number >= 0"],
+        {SPACING: "-1"}),
+    row("target spacing that is far too small", [
+        "'Mesh / Refinement / target spacing'", "found 1e-09", "16 halvings",
+        "Is it in the unit of the mesh?"], {SPACING: "1e-9"}),
+    row("refined places without target spacing", [
+        "'Mesh / Refinement / target spacing'", "found 0 with", "> 0"],
+        {REFINED: "right"}),
+    row("refined around an unknown boundary", [
+        "'Mesh / Refinement / around'", "'rigth'", "did you mean 'right'"],
+        {SPACING: "0.05", REFINED: "rigth"}),
+    row("refined around a negative ball", [
+        "'Mesh / Refinement / around'", "radius"],
+        {SPACING: "0.05", REFINED: "ball 0.5 0.5 -1"}),
+    row("refinement of nothing in finite elements", [
+        "'Mesh / Refinement / target spacing'", "found nothing",
+        "bottom, left, right, top"],
+        {SPACING: "0.05", AROUND: None, "Mode": "finite elements"}),
+    row("refinement distance without number", [
+        "'Mesh / Refinement / distance'", "'far'", "horizons"],
+        {SPACING: "0.05", DISTANCE: "far"}),
+    row("refinement grading 0", [
+        "'Mesh / Refinement / grading'", "found '0'", "a number > 0"],
+        {SPACING: "0.05", "Mesh/Refinement/grading": "0"}),
+    row("unknown way with curved boundaries", [
+        "'Mesh / Refinement / curved boundaries'", "'round'", "automatic, straight"],
+        {"Mesh/Refinement/curved boundaries": "round"}),
+]
+
 REGIONS = [
     row("no around", ["'Peridynamics / around'", "found nothing",
                       "bottom, left, right, top"], {AROUND: None}),

@@ -50,12 +50,12 @@ def parameter_text(*changes):
             sections.setdefault(section, []).append((name, value))
     text = ""
     for section, lines in sections.items():
-        if section:
-            text += "subsection %s\n" % section
+        names = section.split("/") if section else []
+        for name in names:
+            text += "subsection %s\n" % name
         for name, value in lines:
             text += "  set %s = %s\n" % (name, value)
-        if section:
-            text += "end\n"
+        text += "end\n" * len(names)
     return text
 
 

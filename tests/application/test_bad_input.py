@@ -14,6 +14,7 @@ TABLES = {
     "command_line": bad_input_files.COMMAND_LINE,
     "parameters": bad_input_files.PARAMETERS,
     "mesh": bad_input_files.MESH,
+    "refinement": bad_input_body.REFINEMENT,
     "regions": bad_input_body.REGIONS,
     "conditions": bad_input_body.CONDITIONS,
     "quantities": bad_input_body.QUANTITIES,

@@ -44,6 +44,10 @@ CASES = {
     ([], {"stress_concentration": 0.01, "equator_displacement_y": 1e-3,
           "pole_displacement_x": 5e-4},
      {"ring_stt_error": 5e-3, "ring_ux_error": 1e-3}),
+    "plate_with_hole_refined.prm":
+    ([], {"stress_concentration": 5e-3, "equator_displacement_y": 0.01,
+          "pole_displacement_x": 5e-3},
+     {"ring_stt_error": 3e-3, "ring_ux_error": 5e-3}),
     "plate_with_hole_bond_based.prm":
     ([], {"stress_concentration": 0.01, "equator_displacement_y": 4e-3,
           "pole_displacement_x": 2e-3},

@@ -16,6 +16,9 @@ CAVITY = "Mesh/geometry parameters=n = 8, nr = 9"
 # An iterative solver stops at its tolerance: it must be below the differences
 # that are looked for.
 ITERATIVE = ["Solver/linear solver=iterative", "Solver/linear tolerance=1e-13"]
+COARSE_PLATE = "Mesh/geometry parameters=nt = 6, nr = 8, pr = 1.3"
+COARSE_CAVITY = "Mesh/geometry parameters=n = 3, nr = 4"
+COARSE_STRIP = "Mesh/geometry parameters=L = 1.5, d = 1.03125, h = 0.125"
 SLIT = "Mesh/geometry parameters=dx = 0.05, nf = 6"
 STRIP = "Mesh/geometry parameters=L = 1.5, d = 1.03125, h = 0.0625"
 TWO_ADVANCES = "Cracks/maximum advances=2"
@@ -50,6 +53,18 @@ CASES = [
     ("finite elements only", "plate_with_hole.prm",
      [PLATE, "Mode=finite elements"], False),
     ("meshed crack", "centre_crack_meshed.prm", [SLIT], False),
+    ("refined locally", "plate_with_hole.prm",
+     [COARSE_PLATE, "Mesh/Refinement/target spacing=0.25", WITH_REACTIONS],
+     False),
+    ("refined locally, in 3D", "spherical_cavity.prm",
+     [COARSE_CAVITY, "Mesh/Refinement/target spacing=0.25",
+      "Peridynamics/core size=0", "Solver/linear solver=direct"], False),
+    ("refined locally, iterative", "plate_with_hole.prm",
+     [COARSE_PLATE, "Mesh/Refinement/target spacing=0.25",
+      "Solver/tangent=matrix-free"] + ITERATIVE, False),
+    ("growth into hanging nodes", "edge_crack_growth.prm",
+     [COARSE_STRIP, "Mesh/Refinement/target spacing=0.0625", TWO_ADVANCES],
+     False),
     ("energy blending", "plate_with_hole.prm",
      [PLATE, "Peridynamics/coupling=energy blending"], True),
     ("force blending", "plate_with_hole.prm",

@@ -80,6 +80,10 @@ CASES = [
         "Load steps/end time": "2",
         "Load steps/number of steps": "4",
     }), (1, 6)),
+    ("growth of a crack on a refined mesh", dict(STRIP, **{
+        "Cracks/growth control": "events",
+        "Mesh/Refinement/target spacing": "%.17g" % (1. / 32.),
+    }), (1, 6)),
     ("bonds that break by events", dict(STRIP, **{
         "Cracks/growth": "bonds",
         "Cracks/growth control": "events",

@@ -73,8 +73,10 @@ def mesh_entries(folder, name):
     return {"Mesh/file": path}, len(counts), SIDES[len(counts)]
 
 
-def judge(study, what, solution, error="relative_displacement_error"):
-    good = (solution["ghost_force"] < LIMIT and solution[error] < LIMIT)
+def judge(study, what, solution, error="relative_displacement_error",
+          condition=True):
+    good = (solution["ghost_force"] < LIMIT and solution[error] < LIMIT and
+            condition)
     study.row(what, solution["ghost_force"], solution[error], "< 1e-10", good)
 
 
@@ -251,6 +253,39 @@ def layers(study):
                       (direction, model, distortion, ratio, mode), solution)
 
 
+def refined(study):
+    """The same on meshes that the program refines around the region: hanging
+    nodes beside it, on the surface and at the supports."""
+    if not study.part("refined locally", "ghost force", "error"):
+        return
+    number = 0
+    for mesh, spacing in (("distorted 25 %", .03), ("unstructured", .03),
+                          ("graded 8:1", .03), ("distorted hexes", .075)):
+        for mode, model in (("coupled", "correspondence"),
+                            ("coupled", "bond based"),
+                            ("finite elements", "correspondence")):
+            for loading in ("symmetry", "all sides"):
+                number += 1
+                ratio = (1.5, 2.)[number % 2]
+                folder = study.folder()
+                entries, error = neumann_case(folder, mesh, model, ratio,
+                                              loading, mode, number)
+                refine(entries, mesh, spacing)
+                solution = study.solve(
+                    write_parameters(folder + "/case.prm", entries))
+                # No hanging node would prove nothing.
+                judge(study, "%s, %s, m %g, %s, %s" %
+                      (mesh, model, ratio, loading, mode), solution, error,
+                      solution["hanging_nodes"] > 10)
+
+
+def refine(entries, mesh, spacing):
+    entries["Mesh/Refinement/target spacing"] = spacing
+    if entries["Mode"] == "finite elements":
+        entries["Mesh/Refinement/around"] = (
+            "box 0.8 0.5 0.5 1 1 1" if "hexes" in mesh else "box 0.7 0.4 1 1")
+
+
 def layer_case(folder, model, distortion, direction):
     """Soft below y = 1/2, stiff above."""
     path = os.path.join(folder, "mesh.msh")
@@ -287,4 +322,5 @@ if __name__ == "__main__":
     pure_peridynamics(STUDY)
     neumann(STUDY)
     layers(STUDY)
+    refined(STUDY)
     STUDY.finish()

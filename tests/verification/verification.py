@@ -26,18 +26,17 @@ WITHOUT_FIELDS = {"Output/fields": "false", "Output/particles": "false"}
 
 
 def write_parameters(path, entries):
-    """A parameter file from {"Section/entry": value}."""
+    """A parameter file from {"Section/Subsection/entry": value}."""
     sections = {}
     for name, value in entries.items():
         section, _, entry = name.rpartition("/")
         sections.setdefault(section, []).append("set %s = %s" % (entry, value))
     with open(path, "w") as file:
         for section, lines in sections.items():
-            if section:
-                file.write("subsection %s\n" % section)
+            names = section.split("/") if section else []
+            file.writelines("subsection %s\n" % name for name in names)
             file.write("\n".join(lines) + "\n")
-            if section:
-                file.write("end\n")
+            file.write("end\n" * len(names))
     return path
 
 

@@ -6,6 +6,7 @@
 #include <perimorph/damage/breaking_rule.h>
 #include <perimorph/fem/rigid_motion.h>
 #include <perimorph/fracture/crack_tips.h>
+#include <perimorph/mesh/local_refinement.h>
 #include <perimorph/output/checkpoint.h>
 #include <perimorph/output/csv_writer.h>
 #include <perimorph/output/field_output.h>
@@ -94,7 +95,23 @@ namespace Perimorph::Application
     void
     read_mesh();
     void
+    make_mesh(const Mesh::GmshMesh<dim> &gmsh_mesh);
+    /// The mesh as it is wanted around the peridynamic region.
+    void
+    refine_mesh(const Mesh::GmshMesh<dim> &coarse);
+    /// Keeps hanging nodes out of the families.
+    /// @return  whether the mesh is another one
+    bool
+    refine_beside_families();
+    /// Once: families of a region that has grown have hanging nodes.
+    void
+    warn_of_hanging_families(const Mesh::RegionMap &region);
+    void
+    report_refinement();
+    void
     assign_materials();
+    void
+    place_region();
     /// Makes the cracks and places peridynamics around them.
     void
     place_cracks();
@@ -369,7 +386,10 @@ namespace Perimorph::Application
     MPI_Comm                  communicator;
     Base::Timing              timing;
 
+    std::unique_ptr<Mesh::LocalRefinement<dim>> refinement; ///< or none
     std::unique_ptr<Mesh::DistributedMesh<dim>> mesh;
+    unsigned int                                n_coarse_nodes       = 0;
+    bool                                        hanging_is_announced = false;
     Coupling::BodyMaterials<dim>                materials;
     Bonds::CrackSet<dim>                        cracks;
     Mesh::RegionMap                             region;

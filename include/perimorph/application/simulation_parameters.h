@@ -5,7 +5,7 @@
 #include <perimorph/damage/breaking_rule.h>
 #include <perimorph/fem/boundary_conditions.h>
 #include <perimorph/materials/linear_elastic.h>
-#include <perimorph/mesh/region_map.h>
+#include <perimorph/mesh/refinement_rule.h>
 #include <perimorph/parameters/lists.h>
 #include <perimorph/parameters/polylines.h>
 #include <perimorph/parameters/probes.h>
@@ -35,6 +35,10 @@ namespace Perimorph::Application
     unsigned int dimension = 2;
 
     std::string mesh_file, geometry_parameters;
+
+    double      target_spacing = 0., grading     = 0.2;
+    std::string refined_places, refined_distance = "1 horizons",
+                                curved_boundaries = "automatic";
 
     std::string law = "linear elastic", state = "automatic", by_volume;
     double      youngs_modulus = 0., poissons_ratio = 0.;
@@ -131,6 +135,7 @@ namespace Perimorph::Application
 
     std::string                   mesh_file;
     std::map<std::string, double> geometry_parameters;
+    Mesh::RefinementParameters    refinement;
 
     std::string                              law;
     Materials::PlaneState                    state;
@@ -182,6 +187,9 @@ namespace Perimorph::Application
     void
     read_materials(const ParameterTexts      &texts,
                    Base::InputErrorCollector &errors);
+    void
+    read_refinement(const ParameterTexts      &texts,
+                    Base::InputErrorCollector &errors);
     void
     read_region(const ParameterTexts &texts, Base::InputErrorCollector &errors);
     void
