@@ -95,6 +95,10 @@ CASES.update({
     ([], {"centre_tip1_K_I": 5e-3, "centre_tip2_K_I": 5e-3,
           "centre_tip1_J": 5e-3, "centre_tip1_K_I_opening": 0.03},
      {"centre_tip1_domain_dependence": 3e-3}),
+    "centre_crack_refined.prm":
+    ([], {"centre_tip1_K_I": 5e-3, "centre_tip2_K_I": 5e-3,
+          "centre_tip1_J": 5e-3, "centre_tip1_K_I_opening": 0.01},
+     {"centre_tip1_domain_dependence": 3e-3}),
     "centre_crack_tada.prm":
     ([], {"crack_tip1_K_I": 5e-3, "crack_tip2_K_I": 5e-3},
      {"crack_tip1_domain_dependence": 3e-3}),
