@@ -235,13 +235,13 @@ namespace Perimorph::Mesh
   ClosestPoint<dim>
   FeatureDistance<dim>::closest_to_cell(const NodalMesh<dim> &mesh,
                                         const unsigned int    cell,
-                                        const Reach          &reach) const
+                                        const RangeOf        &range) const
   {
     const auto &nodes = mesh.cells[cell];
     const auto  is_in = [this](const unsigned int n) { return inside[n]; };
     if (!inside.empty() && std::all_of(nodes.begin(), nodes.end(), is_in))
       return {0., mesh.cell_centroid[cell]};
-    return closest(mesh.cell_centroid[cell], reach);
+    return closest(mesh.cell_centroid[cell], range);
   }
 
   template <int dim>

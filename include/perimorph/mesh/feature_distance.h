@@ -43,9 +43,8 @@ namespace Perimorph::Mesh
     using RangeOf = std::function<Range(const dealii::Point<dim> &)>;
 
     /// For a node of the mesh; zero for the nodes of a named volume.
-    /// @param range  a node that is certainly nearer or farther gets the
-    /// nearest
-    ///               corner of the feature instead of the nearest point
+    /// @param range  a node that is certainly nearer or farther gets the nearest
+    ///        corner of the feature instead of the nearest point
     ClosestPoint<dim>
     closest_to_node(const NodalMesh<dim> &mesh,
                     unsigned int          node,
@@ -55,7 +54,7 @@ namespace Perimorph::Mesh
     ClosestPoint<dim>
     closest_to_cell(const NodalMesh<dim> &mesh,
                     unsigned int          cell,
-                    const Reach          &reach) const;
+                    const RangeOf        &range) const;
 
   private:
     ClosestPoint<dim>
