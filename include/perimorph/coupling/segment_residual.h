@@ -1,9 +1,9 @@
 #pragma once
 
 #include <perimorph/bonds/segment_cutter.h>
+#include <perimorph/coupling/fully_symmetric_tensor.h>
 #include <perimorph/mesh/nodal_mesh.h>
 
-#include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
 
 #include <array>
@@ -14,56 +14,6 @@ namespace Perimorph
 {
   namespace Coupling
   {
-    /// Tensor of rank 4 that does not change under any exchange of indices: the
-    /// stiffness of a set of bonds.
-    ///
-    /// One component per set of indices {a <= b <= c <= d}: 5 in 2D (0000,
-    /// 0001, 0011, 0111, 1111), 15 in 3D.
-    template <int dim>
-    struct FullySymmetricTensor
-    {
-      static constexpr unsigned int n_components = dim == 2 ? 5 : 15;
-
-      std::array<double, n_components> components{};
-
-      /// direction (x) direction (x) direction (x) direction
-      static FullySymmetricTensor
-      dyad(const dealii::Tensor<1, dim> &direction);
-
-      /// Component that stands for index (a, b, c, d).
-      static unsigned int
-      component(unsigned int a, unsigned int b, unsigned int c, unsigned int d);
-
-      /// How many of the dim^4 indices a component stands for.
-      static unsigned int
-      multiplicity(unsigned int component);
-
-      double
-      operator()(const unsigned int a,
-                 const unsigned int b,
-                 const unsigned int c,
-                 const unsigned int d) const
-      {
-        return components[component(a, b, c, d)];
-      }
-
-      /// Adds factor * other.
-      void
-      add(double factor, const FullySymmetricTensor &other);
-
-      /// sigma_ab = C_abcd strain_cd.
-      dealii::SymmetricTensor<2, dim>
-      contract(const dealii::SymmetricTensor<2, dim> &strain) const;
-
-      /// All dim^4 components.
-      dealii::Tensor<4, dim>
-      full() const;
-
-      /// Frobenius norm of the full tensor.
-      double
-      norm() const;
-    };
-
     /// What the cells must subtract from their stiffness so that bonds and
     /// elements together pass the patch test: a tensor C_q per Gauss point (in
     /// the order of Mesh::CellGeometry), found cell by cell from the pieces of
