@@ -1,4 +1,5 @@
 #include <perimorph/mesh/cell_geometry.h>
+#include <perimorph/mesh/multilinear_map.h>
 
 #include <deal.II/base/geometry_info.h>
 
@@ -105,9 +106,13 @@ namespace Perimorph
     shape_values(const dealii::Point<dim> &unit_point)
     {
       std::array<double, (1u << dim)> values;
-      for (unsigned int v = 0; v < values.size(); ++v)
-        values[v] =
-          dealii::GeometryInfo<dim>::d_linear_shape_function(unit_point, v);
+      values[0] = 1.;
+      for (int d = 0; d < dim; ++d)
+        for (unsigned int v = 0; v < (1u << d); ++v)
+          {
+            values[v | (1u << d)] = values[v] * unit_point[d];
+            values[v] *= 1. - unit_point[d];
+          }
       return values;
     }
 
@@ -117,40 +122,14 @@ namespace Perimorph
                      const dealii::Point<dim>                          &point,
                      dealii::Point<dim> &unit_point)
     {
-      // Relative to the first corner and to the size of the cell: far from the
-      // origin absolute coordinates have no digits left for a small cell.
-      double size = 0.;
-      for (const auto &corner : corners)
-        size = std::max(size, corner.distance(corners[0]));
-      std::array<dealii::Point<dim>, (1u << dim)> scaled;
+      // Relative to the first corner: far from the origin absolute coordinates
+      // have no digits left for a small cell.
+      std::array<dealii::Point<dim>, (1u << dim)> relative;
       for (unsigned int v = 0; v < corners.size(); ++v)
-        scaled[v] = dealii::Point<dim>((corners[v] - corners[0]) / size);
-      const dealii::Point<dim> target((point - corners[0]) / size);
-
-      const auto error_at = [&](const dealii::Point<dim> &unit) {
-        const auto             values = shape_values<dim>(unit);
-        dealii::Tensor<1, dim> error  = target;
-        for (unsigned int v = 0; v < scaled.size(); ++v)
-          error -= values[v] * scaled[v];
-        return error;
-      };
-      for (int d = 0; d < dim; ++d)
-        unit_point[d] = 0.5;
-      for (unsigned int iteration = 0; iteration < 30; ++iteration)
-        {
-          const auto jacobian = jacobian_at<dim>(scaled, unit_point);
-          if (!(std::abs(determinant(jacobian)) > 0.))
-            return false;
-          const dealii::Tensor<1, dim> step =
-            invert(jacobian) * error_at(unit_point);
-          unit_point += step;
-          if (!(unit_point.norm() < 1e3))
-            return false;
-          if (step.norm() < 1e-13)
-            return true;
-        }
-      // Stagnation at round-off level is convergence too.
-      return error_at(unit_point).norm() <= 1e-11;
+        relative[v] = dealii::Point<dim>(corners[v] - corners[0]);
+      return MultilinearMap<dim>(relative).to_unit(
+        dealii::Point<dim>(point - corners[0]),
+        unit_point);
     }
 
     template <int dim>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <perimorph/bonds/segment_cutter.h>
+#include <perimorph/bonds/segment_piece.h>
 #include <perimorph/coupling/fully_symmetric_tensor.h>
 #include <perimorph/mesh/nodal_mesh.h>
 
