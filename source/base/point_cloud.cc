@@ -45,6 +45,40 @@ namespace Perimorph::Base
     Index                           index;
   };
 
+  namespace
+  {
+    /// Points within a distance, without their distances.
+    struct Found
+    {
+      double                     squared_distance;
+      std::vector<unsigned int> &indices;
+
+      // Interface that nanoflann asks for.
+      std::size_t
+      size() const
+      {
+        return indices.size();
+      }
+      bool
+      full() const
+      {
+        return true;
+      }
+      bool
+      addPoint(const double squared, const unsigned int index)
+      {
+        if (squared < squared_distance)
+          indices.push_back(index);
+        return true;
+      }
+      double
+      worstDist() const
+      {
+        return squared_distance;
+      }
+    };
+  } // namespace
+
   template <int dim>
   PointCloud<dim>::PointCloud(std::vector<dealii::Point<dim>> points)
     : tree(std::make_unique<Tree>(std::move(points)))
@@ -65,15 +99,10 @@ namespace Perimorph::Base
                           std::vector<unsigned int> &indices) const
   {
     indices.clear();
-    std::vector<std::pair<unsigned int, double>> found;
     // nanoflann excludes the radius itself and compares squares.
     const double inclusive = radius * radius * (1. + 1e-14);
-    tree->index.radiusSearch(&center[0],
-                             inclusive,
-                             found,
-                             nanoflann::SearchParams(32, 0.f, false));
-    for (const auto &entry : found)
-      indices.push_back(entry.first);
+    Found        found{inclusive, indices};
+    tree->index.radiusSearchCustomCallback(&center[0], found);
     std::sort(indices.begin(), indices.end());
   }
 

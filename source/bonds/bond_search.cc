@@ -111,7 +111,8 @@ namespace Perimorph
       const Box<dim> rank_box =
         everything ? Box<dim>() : box_of_this_rank(mesh);
 
-      std::vector<Found>        bonds;
+      // The first come in rising order.
+      std::vector<Found>        bonds, seen_from_second;
       std::vector<unsigned int> neighbours;
       for (unsigned int i = 0; i < mesh.n_nodes(); ++i)
         {
@@ -153,13 +154,22 @@ namespace Perimorph
               if (a == i)
                 bonds.push_back({{{a, b}}, {{beta_i, beta_j}}});
               else
-                bonds.push_back({{{a, b}}, {{beta_j, beta_i}}});
+                seen_from_second.push_back({{{a, b}}, {{beta_j, beta_i}}});
             }
         }
 
-      std::sort(bonds.begin(), bonds.end(), [](const Found &x, const Found &y) {
+      const auto by_nodes = [](const Found &x, const Found &y) {
         return x.nodes < y.nodes;
-      });
+      };
+      std::sort(seen_from_second.begin(), seen_from_second.end(), by_nodes);
+      const std::size_t n_first = bonds.size();
+      bonds.insert(bonds.end(),
+                   seen_from_second.begin(),
+                   seen_from_second.end());
+      std::inplace_merge(bonds.begin(),
+                         bonds.begin() + n_first,
+                         bonds.end(),
+                         by_nodes);
       pairs.nodes.reserve(bonds.size());
       pairs.beta.reserve(bonds.size());
       pairs.owned.reserve(bonds.size());

@@ -35,12 +35,22 @@ namespace Perimorph::Coupling
         : mesh(mesh)
         , horizon(horizon)
         , state(state)
+        , values(mesh.n_nodes(), -1.)
       {}
 
       /// Zero at a finite-element node whose horizon is smaller than the
       /// spacing: it has no family of its own.
       double
       at(const unsigned int n)
+      {
+        if (values[n] < 0.)
+          values[n] = compute(n);
+        return values[n];
+      }
+
+    private:
+      double
+      compute(const unsigned int n)
       {
         if (horizon[n] < mesh.spacing[n] * (1. - 1e-8))
           return 0.;
@@ -57,10 +67,10 @@ namespace Perimorph::Coupling
                Peridynamics::micromodulus(1., horizon[n], state);
       }
 
-    private:
       const Mesh::NodalMesh<dim> &mesh;
       const std::vector<double>  &horizon;
       const Materials::PlaneState state;
+      std::vector<double>         values;  ///< of the nodes asked for, or -1
       std::map<double, double>    factors; ///< ratios repeat
     };
 

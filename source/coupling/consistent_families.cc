@@ -44,13 +44,25 @@ namespace Perimorph::Coupling
                 {
                   slot[c] = geometries.size();
                   geometries.emplace_back(mesh.corners(c));
-                  weight_sums.push_back({});
+                  cells.push_back(c);
                 }
+        shares.resize(cells.size());
         for (std::size_t p = 0; p < particles.size(); ++p)
           for (const unsigned int c : supports.row(p))
             if (slot[c] != not_needed)
               for (unsigned int q = 0; q < n_points; ++q)
-                weight_sums[slot[c]][q] += weight(p, geometries[slot[c]], q);
+                shares[slot[c]][q] += weight(p, geometries[slot[c]], q);
+        for (std::size_t k = 0; k < cells.size(); ++k)
+          for (unsigned int q = 0; q < n_points; ++q)
+            {
+              double alpha_at_point = 0.;
+              for (unsigned int v = 0; v < Geometry::n_nodes; ++v)
+                alpha_at_point +=
+                  alpha[mesh.cells[cells[k]][v]] * Geometry::shape_value(q, v);
+              if (shares[k][q] > 0.) // not cut off from all particles
+                shares[k][q] =
+                  geometries[k].jxw[q] * alpha_at_point / shares[k][q];
+            }
       }
 
       struct Result
@@ -71,17 +83,15 @@ namespace Perimorph::Coupling
         for (const unsigned int c : supports.row(particle))
           {
             const Geometry &geometry = geometries[slot[c]];
+            std::array<dealii::Tensor<1, dim>, Geometry::n_nodes> sums;
+            bool is_seen = false;
             for (unsigned int q = 0; q < n_points; ++q)
               {
                 const double own = weight(particle, geometry, q);
                 if (own == 0.)
                   continue;
-                double alpha_at_point = 0.;
-                for (unsigned int v = 0; v < Geometry::n_nodes; ++v)
-                  alpha_at_point +=
-                    alpha[mesh.cells[c][v]] * Geometry::shape_value(q, v);
-                const double share = geometry.jxw[q] * alpha_at_point * own /
-                                     weight_sums[slot[c]][q];
+                is_seen            = true;
+                const double share = own * shares[slot[c]][q];
                 result.volume += share;
                 const auto x = geometry.points[q] - mesh.nodes[node];
                 for (int d = 0; d < dim; ++d)
@@ -90,9 +100,11 @@ namespace Perimorph::Coupling
                     second_moment[d] += share * x[d] * x[d];
                   }
                 for (unsigned int v = 0; v < Geometry::n_nodes; ++v)
-                  scratch.at(mesh.cells[c][v]) +=
-                    share * geometry.gradients[q][v];
+                  sums[v] += share * geometry.gradients[q][v];
               }
+            if (is_seen)
+              for (unsigned int v = 0; v < Geometry::n_nodes; ++v)
+                scratch.at(mesh.cells[c][v]) += sums[v];
           }
         for (int d = 0; d < dim; ++d)
           result.variance[d] = second_moment[d] / result.volume -
@@ -128,9 +140,11 @@ namespace Perimorph::Coupling
       const Base::Csr<unsigned int>          &supports;
       const CutFamilies<dim>                 *cuts;
 
-      std::vector<unsigned int>                 slot; ///< of each cell
-      std::vector<Geometry>                     geometries;
-      std::vector<std::array<double, n_points>> weight_sums;
+      std::vector<unsigned int> slot;  ///< of each cell
+      std::vector<unsigned int> cells; ///< of each slot
+      std::vector<Geometry>     geometries;
+      /// Volume times alpha of the points, per unit of weight there.
+      std::vector<std::array<double, n_points>> shares;
     };
 
     /// Node and gradient weight, divided by the volume.

@@ -38,7 +38,10 @@ namespace Perimorph::Peridynamics
         case InfluenceFunction::cubic_spline:
           if (r < 0.5)
             return 1. - 6. * r * r + 6. * r * r * r;
-          return 2. * std::pow(std::max(0., 1. - r), 3);
+          {
+            const double t = std::max(0., 1. - r);
+            return 2. * t * t * t;
+          }
         case InfluenceFunction::gaussian:
           return std::exp(-4. * r * r);
       }
@@ -49,10 +52,10 @@ namespace Perimorph::Peridynamics
   averaging_weight(const InfluenceFunction function, const double r)
   {
     // The floor keeps cells at the edge of the horizon in the average.
-    const double smallest = std::exp(-4.);
-    const double s        = std::min(r, 1.);
-    const double s2       = s * s;
-    double       weight   = 0.;
+    static const double smallest = std::exp(-4.);
+    const double        s        = std::min(r, 1.);
+    const double        s2       = s * s;
+    double              weight   = 0.;
     switch (function)
       {
         case InfluenceFunction::constant:
@@ -70,8 +73,7 @@ namespace Perimorph::Peridynamics
             {
               // 2 (1-s)^3 s integrates to (1-s)^4 / 2 - 2 (1-s)^5 / 5.
               const double t = 1. - s;
-              weight =
-                (80. / 7.) * (0.5 * std::pow(t, 4) - 0.4 * std::pow(t, 5));
+              weight         = (80. / 7.) * (t * t * t * t) * (0.5 - 0.4 * t);
             }
           break;
         case InfluenceFunction::gaussian:
