@@ -41,10 +41,14 @@ namespace Perimorph::Coupling
               const Bonds::BrokenBonds   &broken,
               BondCoupling<dim>          &coupling)
   {
-    auto &bonds = coupling.bonds;
+    auto             &bonds = coupling.bonds;
+    std::vector<bool> has_lost(mesh.n_nodes(), false);
+    for (const auto &bond : broken.list())
+      has_lost[bond.nodes[0]] = has_lost[bond.nodes[1]] = true;
     for (std::size_t b = 0; b < bonds.nodes.size(); ++b)
-      bonds.stiffness[b] *=
-        broken.share_left(bonds.nodes[b][0], bonds.nodes[b][1]);
+      if (has_lost[bonds.nodes[b][0]] && has_lost[bonds.nodes[b][1]])
+        bonds.stiffness[b] *=
+          broken.share_left(bonds.nodes[b][0], bonds.nodes[b][1]);
     const auto remains = [left = bonds.stiffness](const std::size_t b) {
       return left[b] != 0.;
     };

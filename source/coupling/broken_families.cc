@@ -36,6 +36,34 @@ namespace Perimorph::Coupling
       return k;
     }
 
+    /// Adds particles that keep all their bonds.
+    template <int dim>
+    void
+    copy_rows(const Peridynamics::FamilySet<dim> &families,
+              const std::size_t                   begin,
+              const std::size_t                   end,
+              Peridynamics::FamilySet<dim>       &set)
+    {
+      const auto copy = [](const auto       &from,
+                           const std::size_t first,
+                           const std::size_t last,
+                           auto             &to) {
+        to.insert(to.end(), from.begin() + first, from.begin() + last);
+      };
+      copy(families.node, begin, end, set.node);
+      copy(families.material, begin, end, set.material);
+      copy(families.weight, begin, end, set.weight);
+      copy(families.stabilization, begin, end, set.stabilization);
+      const std::size_t first = families.offsets[begin];
+      const std::size_t last  = families.offsets[end];
+      for (std::size_t p = begin; p < end; ++p)
+        set.offsets.push_back(set.neighbor.size() + families.offsets[p + 1] -
+                              first);
+      copy(families.neighbor, first, last, set.neighbor);
+      copy(families.gradient_weight, first, last, set.gradient_weight);
+      copy(families.bond_weight, first, last, set.bond_weight);
+    }
+
     /// The smaller root stays one.
     void
     join(std::vector<unsigned int> &parent, unsigned int a, unsigned int b)
@@ -57,11 +85,21 @@ namespace Perimorph::Coupling
   {
     n_isolated = 0;
     Peridynamics::FamilySet<dim> set;
+    set.node.reserve(families.n_particles());
+    set.offsets.reserve(families.n_particles() + 1);
+    set.neighbor.reserve(families.n_bonds());
+    set.gradient_weight.reserve(families.n_bonds());
+    set.bond_weight.reserve(families.n_bonds());
+    std::size_t first_whole = 0; // of the particles that are not copied yet
     for (std::size_t p = 0; p < families.n_particles(); ++p)
       {
-        const unsigned int node   = families.node[p];
-        const auto         begin  = set.neighbor.size();
-        bool               softer = false;
+        const unsigned int node = families.node[p];
+        if (broken.count(node) == 0)
+          continue;
+        copy_rows(families, first_whole, p, set);
+        first_whole       = p + 1;
+        const auto begin  = set.neighbor.size();
+        bool       softer = false;
         for (std::size_t b = families.offsets[p]; b < families.offsets[p + 1];
              ++b)
           if (!broken.contains(node, families.neighbor[b]))
@@ -120,6 +158,7 @@ namespace Perimorph::Coupling
              (inverse * (mesh.nodes[set.neighbor[b]] - mesh.nodes[node])));
         close_row(particle, families.weight[p], parameters, inverse, set);
       }
+    copy_rows(families, first_whole, families.n_particles(), set);
     return set;
   }
 

@@ -208,37 +208,42 @@ namespace Perimorph::Coupling
     for (const auto &law : materials.laws)
       options.constants.push_back(constants_at_rest(*law));
 
-    IntactBonds<dim> found;
-    const bool       is_known = parts_to_share.intact != nullptr;
-    auto            &set      = found.families;
+    IntactBonds<dim>             found;
+    const bool                   is_known = parts_to_share.intact != nullptr;
+    Peridynamics::FamilySet<dim> set;
     Base::collectively(mesh.communicator(), [&]() {
-      if (is_known)
-        set = parts_to_share.intact->families;
-      else
-        set = parameters.scheme == Scheme::consistent
-                ? consistent_families(nodal,
-                                      region.alpha,
-                                      region.horizon,
-                                      options,
-                                      cracks,
-                                      &found.cracked)
-                : classical_families(nodal,
-                                     forces ? extended_weight(nodal, region)
-                                            : region.alpha,
-                                     region.horizon,
-                                     options,
-                                     cracks);
+      if (!is_known)
+        found.families =
+          parameters.scheme == Scheme::consistent
+            ? consistent_families(nodal,
+                                  region.alpha,
+                                  region.horizon,
+                                  options,
+                                  cracks,
+                                  &found.cracked)
+            : classical_families(nodal,
+                                 forces ? extended_weight(nodal, region)
+                                        : region.alpha,
+                                 region.horizon,
+                                 options,
+                                 cracks);
+      cracked = is_known ? parts_to_share.intact->cracked : found.cracked;
       if (!is_known && parameters.bonds_may_break)
-        parts_to_share.intact = std::make_shared<const IntactBonds<dim>>(found);
+        parts_to_share.intact =
+          std::make_shared<const IntactBonds<dim>>(std::move(found));
+      const auto &intact = parts_to_share.intact;
       if (!broken.empty())
         set = break_bonds(nodal,
                           region.horizon,
                           options,
                           broken,
-                          set,
+                          intact ? intact->families : found.families,
                           local_counts.isolated);
+      else if (intact)
+        set = intact->families;
+      else
+        set = std::move(found.families);
     });
-    cracked = is_known ? parts_to_share.intact->cracked : found.cracked;
     std::vector<unsigned int> parts;
     if (!broken.empty())
       parts = find_parts(nodal, region.alpha, set, mesh.communicator());

@@ -63,56 +63,61 @@ namespace Perimorph::Peridynamics
                  dealii::FullMatrix<double>   &matrix)
   {
     const unsigned int n = family.n_bonds + 1;
-    matrix.reinit(dim * n, dim * n);
+    matrix.reinit(dim * n, dim * n, true);
 
-    // Gradient weights of all nodes of the block, the particle first.
-    std::vector<dealii::Tensor<1, dim>> g(n);
+    // The energy of the z_j = eta_j - H xi_j is a quadratic form with scalar
+    // coefficients kappa (D_rc + g_r . (K g_c - p_c) - p_r . g_c) between
+    // nodes r and c, the particle first: g and p = w xi are minus their sums
+    // there, D is the form of springs w from the particle, K the shape tensor.
+    std::vector<dealii::Tensor<1, dim>> g(n), p(n);
+    dealii::Tensor<2, dim>              K;
     for (unsigned int j = 1; j < n; ++j)
       {
         g[j] = family.gradient_weight[j - 1];
+        p[j] = family.bond_weight[j - 1] * family.xi[j - 1];
         g[0] -= g[j];
+        p[0] -= p[j];
+        for (int a = 0; a < dim; ++a)
+          for (int b = 0; b < dim; ++b)
+            K[a][b] += p[j][a] * family.xi[j - 1][b];
       }
+    const double                        kappa = family.stabilization;
+    std::vector<dealii::Tensor<3, dim>> A_g(n);
+    std::vector<dealii::Tensor<1, dim>> q(n), kappa_g(n);
     for (unsigned int c = 0; c < n; ++c)
       {
-        dealii::Tensor<3, dim> A_g;
         for (int i = 0; i < dim; ++i)
-          for (int m = 0; m < dim; ++m)
-            for (int k = 0; k < dim; ++k)
-              A_g[i][m][k] = A[i][m][k] * g[c];
-        for (unsigned int r = 0; r < n; ++r)
-          for (int i = 0; i < dim; ++i)
-            for (int k = 0; k < dim; ++k)
-              {
-                double sum = 0.;
-                for (int m = 0; m < dim; ++m)
-                  sum += g[r][m] * A_g[i][m][k];
-                matrix(dim * r + i, dim * c + k) += sum;
-              }
-      }
-
-    if (family.stabilization == 0.)
-      return;
-    // z_j = sum_k row_j[k] u_k with scalar coefficients.
-    dealii::FullMatrix<double> scalar(n, n);
-    std::vector<double>        row(n);
-    for (unsigned int j = 1; j < n; ++j)
-      {
-        for (unsigned int k = 0; k < n; ++k)
-          row[k] = -(g[k] * family.xi[j - 1]);
-        row[j] += 1.;
-        row[0] -= 1.;
-        const double factor = family.stabilization * family.bond_weight[j - 1];
-        for (unsigned int r = 0; r < n; ++r)
-          {
-            const double weighted = factor * row[r];
-            for (unsigned int c = 0; c < n; ++c)
-              scalar(r, c) += weighted * row[c];
-          }
+          for (int k = 0; k < dim; ++k)
+            for (int m = 0; m < dim; ++m)
+              A_g[c][i][k][m] = A[i][m][k] * g[c];
+        q[c]       = kappa * (K * g[c] - p[c]);
+        kappa_g[c] = kappa * g[c];
       }
     for (unsigned int r = 0; r < n; ++r)
-      for (unsigned int c = 0; c < n; ++c)
-        for (int i = 0; i < dim; ++i)
-          matrix(dim * r + i, dim * c + i) += scalar(r, c);
+      for (int i = 0; i < dim; ++i)
+        {
+          double *row = &matrix(dim * r + i, 0);
+          for (unsigned int c = 0; c < n; ++c, row += dim)
+            {
+              for (int k = 0; k < dim; ++k)
+                {
+                  row[k] = 0.;
+                  for (int m = 0; m < dim; ++m)
+                    row[k] += g[r][m] * A_g[c][i][k][m];
+                }
+              for (int m = 0; m < dim; ++m)
+                row[i] += g[r][m] * q[c][m] - p[r][m] * kappa_g[c][m];
+            }
+        }
+    for (unsigned int j = 1; j < n; ++j)
+      for (int i = 0; i < dim; ++i)
+        {
+          const double spring = kappa * family.bond_weight[j - 1];
+          matrix(i, i) += spring;
+          matrix(dim * j + i, dim * j + i) += spring;
+          matrix(i, dim * j + i) -= spring;
+          matrix(dim * j + i, i) -= spring;
+        }
   }
 
 #define PERIMORPH_INSTANTIATE(dim)                                           \
