@@ -61,6 +61,22 @@ namespace Perimorph::Application
                       "[-]; 1000: as the file has them, beside a difference of "
                       "one halving between neighbours.",
                       PositiveDouble());
+    prm.add_parameter("error cycles",
+                      error_cycles,
+                      "Solves of the first load step before the run, each "
+                      "followed by halving the elements with the largest "
+                      "errors (Zienkiewicz and Zhu); 0: none.",
+                      Integer(0, 30));
+    prm.add_parameter("error tolerance",
+                      error_tolerance,
+                      "No further cycle once the error of the elements in the "
+                      "energy norm is estimated below this part of it [-].",
+                      Double(0.));
+    prm.add_parameter("refined fraction",
+                      refined_fraction,
+                      "Part of the squared error in the cells that a cycle "
+                      "halves, the fewest that have it [-].",
+                      Double(0., 1.));
     prm.add_parameter(
       "curved boundaries",
       curved_boundaries,

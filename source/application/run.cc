@@ -61,6 +61,8 @@ namespace Perimorph::Application
           << ")" << std::endl;
       Simulation<dim> simulation(parameters, log, communicator);
       simulation.prepare();
+      if (!command_line.validate)
+        simulation.refine_by_error();
       if (!command_line.resume.empty())
         simulation.resume(earlier);
       if (command_line.validate)

@@ -208,18 +208,25 @@ namespace Perimorph::Application
   SimulationParameters<dim>::read_refinement(const ParameterTexts      &texts,
                                              Base::InputErrorCollector &errors)
   {
-    const std::string section = "Mesh / Refinement / ";
-    refinement.spacing        = texts.target_spacing;
-    refinement.features       = Parameters::parse_features(section + "around",
+    const std::string section  = "Mesh / Refinement / ";
+    refinement.spacing         = texts.target_spacing;
+    refinement.features        = Parameters::parse_features(section + "around",
                                                      texts.refined_places,
                                                      dim,
                                                      errors);
-    refinement.distance       = Parameters::parse_length(section + "distance",
+    refinement.distance        = Parameters::parse_length(section + "distance",
                                                    texts.refined_distance,
                                                    false,
                                                    errors);
-    refinement.grading        = texts.grading;
-    refinement.find_curves    = texts.curved_boundaries == "automatic";
+    refinement.grading         = texts.grading;
+    refinement.error_cycles    = texts.error_cycles;
+    refinement.error_tolerance = texts.error_tolerance;
+    refinement.error_fraction  = texts.refined_fraction;
+    refinement.find_curves     = texts.curved_boundaries == "automatic";
+    if (refinement.error_cycles > 0 && refinement.error_fraction == 0.)
+      errors.add_parameter(section + "refined fraction",
+                           "0 with '" + section + "error cycles'",
+                           "a number > 0, at most 1");
     if (refinement.spacing == 0. && !refinement.features.empty())
       errors.add_parameter(section + "target spacing",
                            "0 with '" + section + "around'",

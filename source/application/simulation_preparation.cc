@@ -20,35 +20,7 @@ namespace Perimorph::Application
   {
     const auto timer = timing.scope("setup");
     read_mesh();
-    Base::InputErrorCollector errors;
-    const auto                times = parameters.times();
-    errors.collect([&]() { place_region(); });
-    errors.collect([&]() { assign_materials(); });
-    errors.collect([&]() {
-      supports =
-        std::make_unique<Fem::Supports<dim>>(*mesh,
-                                             parameters.boundary_conditions,
-                                             times);
-    });
-    errors.collect([&]() {
-      loads = std::make_unique<Fem::Loads<dim>>(*mesh,
-                                                parameters.boundary_conditions,
-                                                times);
-    });
-    if (supports && !materials.laws.empty())
-      errors.collect([&]() {
-        post_processing = std::make_unique<PostProcessing<dim>>(parameters,
-                                                                *mesh,
-                                                                materials,
-                                                                *supports,
-                                                                cracks);
-      });
-    if (supports && loads)
-      {
-        errors.collect([&]() { check_crack_mouths(); });
-        errors.collect([&]() { hold_rigid_motion(); });
-      }
-    errors.throw_if_any();
+    prepare_body();
     report_refinement();
     warn_if_nothing_happens();
     if (parameters.growth.bonds)
@@ -99,13 +71,47 @@ namespace Perimorph::Application
 
   template <int dim>
   void
+  Simulation<dim>::prepare_body()
+  {
+    Base::InputErrorCollector errors;
+    const auto                times = parameters.times();
+    errors.collect([&]() { place_region(); });
+    errors.collect([&]() { assign_materials(); });
+    errors.collect([&]() {
+      supports =
+        std::make_unique<Fem::Supports<dim>>(*mesh,
+                                             parameters.boundary_conditions,
+                                             times);
+    });
+    errors.collect([&]() {
+      loads = std::make_unique<Fem::Loads<dim>>(*mesh,
+                                                parameters.boundary_conditions,
+                                                times);
+    });
+    if (supports && !materials.laws.empty())
+      errors.collect([&]() {
+        post_processing = std::make_unique<PostProcessing<dim>>(parameters,
+                                                                *mesh,
+                                                                materials,
+                                                                *supports,
+                                                                cracks);
+      });
+    if (supports && loads)
+      {
+        errors.collect([&]() { check_crack_mouths(); });
+        errors.collect([&]() { hold_rigid_motion(); });
+      }
+    errors.throw_if_any();
+  }
+
+  template <int dim>
+  void
   Simulation<dim>::place_region()
   {
-    const auto timer    = timing.scope("regions");
-    const auto features = parameters.region.features;
+    const auto timer = timing.scope("regions");
     do
       {
-        parameters.region.features = features;
+        parameters.region.features = region_features;
         place_cracks();
         region = make_region_map(*mesh, parameters.region);
       }
@@ -204,13 +210,15 @@ namespace Perimorph::Application
     const auto  gmsh_mesh =
       Mesh::read_gmsh<dim>(file, parameters.geometry_parameters, communicator);
     parameters.pre_cracks = read_crack_groups(gmsh_mesh, parameters.pre_cracks);
+    region_features       = parameters.region.features;
     make_mesh(gmsh_mesh);
     const auto &nodal = mesh->nodal();
     n_coarse_nodes    = nodal.n_nodes();
     log << "Mesh: " << file << "\n  " << nodal.n_nodes() << " nodes, "
         << nodal.n_cells() << " cells; boundaries: ";
     log << Base::join_names(mesh->boundary_names()) << std::endl;
-    if (parameters.refinement.spacing > 0.)
+    if (parameters.refinement.spacing > 0. ||
+        parameters.refinement.error_cycles > 0)
       refine_mesh(gmsh_mesh);
   }
 
@@ -227,6 +235,8 @@ namespace Perimorph::Application
       materials.bond_constants.push_back(
         {constants.youngs_modulus, parameters.state});
     };
+    materials.laws.clear();
+    materials.bond_constants.clear();
     add(parameters.material);
     auto &nodal = mesh->nodal();
     for (const auto &entry : parameters.volume_materials)

@@ -2,6 +2,7 @@
 #include <perimorph/application/simulation.h>
 #include <perimorph/base/exceptions.h>
 #include <perimorph/base/log.h>
+#include <perimorph/fracture/error_indicator.h>
 
 #include <algorithm>
 #include <cmath>
@@ -88,6 +89,8 @@ namespace Perimorph::Application
     const auto &rule = parameters.refinement;
     refinement =
       std::make_unique<Mesh::LocalRefinement<dim>>(coarse, rule.find_curves);
+    if (rule.spacing == 0.)
+      return;
     const auto region = region_with_cracks(parameters);
     for (auto large = Mesh::too_large_cells(*mesh, region, rule);
          !large.empty();
@@ -111,6 +114,47 @@ namespace Perimorph::Application
     refinement->refine(cells);
     make_mesh(refinement->mesh());
     return true;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::refine_by_error()
+  {
+    const auto &rule = parameters.refinement;
+    for (unsigned int cycle = 1; cycle <= rule.error_cycles; ++cycle)
+      {
+        Method     method = set_up(parameters.region.mode);
+        const auto record =
+          method.equilibrium->solve(parameters.times().front(),
+                                    method.displacement,
+                                    [](const auto &) {});
+        if (!record.converged)
+          throw Base::SolveError("error cycle " + std::to_string(cycle) +
+                                 " did not converge: " + record.reason);
+        const auto state     = gather(method);
+        const auto indicator = [&]() {
+          const auto timer = timing.scope("recovery");
+          return Fracture::estimate_error(post_processing->displacement_fit(),
+                                          materials.laws,
+                                          method.region.alpha,
+                                          state.displacement);
+        }();
+        const double error = indicator.relative_error();
+        log << "Error cycle " << cycle << ": " << mesh->nodal().n_nodes()
+            << " nodes, estimated error of the elements " << 100. * error
+            << " %" << std::endl;
+        const auto cells =
+          Fracture::cells_with_most_error(indicator, rule.error_fraction);
+        if (error <= rule.error_tolerance || cells.empty())
+          break;
+        method           = Method();
+        const auto timer = timing.scope("setup");
+        refinement->refine(cells);
+        make_mesh(refinement->mesh());
+        prepare_body();
+      }
+    if (rule.error_cycles > 0)
+      report_refinement();
   }
 
   template <int dim>
@@ -143,7 +187,8 @@ namespace Perimorph::Application
       log.warning("boundary '" + boundary +
                   "' is no curve that refinement knows: its new nodes lie on "
                   "the straight sides of the coarse mesh");
-    if (nodal.n_nodes() == n_coarse_nodes)
+    if (nodal.n_nodes() == n_coarse_nodes &&
+        parameters.refinement.error_cycles == 0)
       log.warning("'Mesh / Refinement / target spacing' changes nothing: the "
                   "mesh is as fine already");
   }

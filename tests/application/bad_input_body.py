@@ -66,6 +66,16 @@ REFINEMENT = [
     row("refinement grading 0", [
         "'Mesh / Refinement / grading'", "found '0'", "a number > 0"],
         {SPACING: "0.05", "Mesh/Refinement/grading": "0"}),
+    row("negative number of error cycles", [
+        "'Mesh / Refinement / error cycles'", "found '-1'"],
+        {"Mesh/Refinement/error cycles": "-1"}),
+    row("refined fraction above 1", [
+        "'Mesh / Refinement / refined fraction'", "found '1.5'"],
+        {"Mesh/Refinement/refined fraction": "1.5"}),
+    row("error cycles that refine nothing", [
+        "'Mesh / Refinement / refined fraction'", "found 0", "a number > 0"],
+        {"Mesh/Refinement/error cycles": "2",
+         "Mesh/Refinement/refined fraction": "0"}),
     row("unknown way with curved boundaries", [
         "'Mesh / Refinement / curved boundaries'", "'round'", "automatic, straight"],
         {"Mesh/Refinement/curved boundaries": "round"}),

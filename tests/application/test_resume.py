@@ -83,6 +83,7 @@ CASES = [
     ("growth of a crack on a refined mesh", dict(STRIP, **{
         "Cracks/growth control": "events",
         "Mesh/Refinement/target spacing": "%.17g" % (1. / 32.),
+        "Mesh/Refinement/error cycles": "1",
     }), (1, 6)),
     ("bonds that break by events", dict(STRIP, **{
         "Cracks/growth": "bonds",

@@ -8,6 +8,8 @@ made on them.
 """
 
 import math
+import os
+import re
 
 from verification import Study, rate
 
@@ -78,6 +80,51 @@ def ellipse(study):
                 abs(straight[name] / mesh[name] - 1.), .01)
 
 
+def error_cycles(study):
+    """The estimate against the error of a cantilever under dead loads, which is
+    that of its energy (0.1342400: 256 and 512 cells along it, extrapolated);
+    what cycles gain in Kirsch's plate against halving all cells."""
+    if not study.part("cycles by estimated errors"):
+        return
+    solution = study.solve("cantilever_small_strain.prm", dict(
+        FE, **{REFINEMENT + "error cycles": "1",
+               REFINEMENT + "error tolerance": "1"}))
+    study.within_percent("estimate against error", estimates(solution)[0],
+                         math.sqrt(1. - solution["strain_energy"] / .13424), 5.)
+    base = dict(FE, **{
+        GEOMETRY: "a = 1, b = 1, hx = 4, hy = 4, nt = 4, nr = 8",
+        REFINEMENT + "error cycles": "1"})
+    solution = study.solve("kirsch_infinite_plate.prm", dict(
+        base, **{REFINEMENT + "error tolerance": "1"}))
+    first = solution["relative_energy_error"]
+    base[REFINEMENT + "error cycles"] = "6"
+    solution = study.solve("kirsch_infinite_plate.prm", base)
+    # Halving all cells k times: 4^k as many, the error 2^-k of the first one.
+    uniform = first * math.sqrt(288. / solution["nodes"])
+    study.below("error over that of as many even nodes",
+                solution["relative_energy_error"] / uniform, 1.)
+    falls = estimates(solution)
+    study.above("cycles", len(falls), 5)
+    study.below("largest estimate over the one before",
+                max(b / a for a, b in zip(falls, falls[1:])), 1.)
+    # In coupled runs where there are elements only.
+    solution = study.solve("plate_with_hole_refined.prm", {
+        REFINEMENT + "error cycles": "3",
+        REFINEMENT + "target spacing": ".25"})
+    study.within_percent("coupled, K_t", solution["stress_concentration"],
+                         3.086085158, 1.)
+    study.within_percent("coupled, displacement of the equator",
+                         solution["equator_displacement_y"], -1.391632667e-4,
+                         .5)
+
+
+def estimates(solution):
+    """Relative errors that the cycles of a run found."""
+    with open(os.path.join(solution.folder, "log.txt")) as file:
+        return [.01 * float(number) for number in re.findall(
+            r"estimated error of the elements ([\d.e-]+) %", file.read())]
+
+
 def cavity(study):
     """From three cells along a quarter of the cavity; coarse where the
     cube ends."""
@@ -119,6 +166,7 @@ if __name__ == "__main__":
     convergence(STUDY)
     stress_concentration(STUDY)
     ellipse(STUDY)
+    error_cycles(STUDY)
     cavity(STUDY)
     crack(STUDY)
     STUDY.finish()

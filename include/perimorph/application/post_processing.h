@@ -81,6 +81,12 @@ namespace Perimorph::Application
     std::vector<std::string>
     write_probes(const State<dim> &state, const std::string &folder) const;
 
+    const Fracture::DisplacementFit<dim> &
+    displacement_fit() const
+    {
+      return *fit;
+    }
+
     /// Recovered stress at every node, complete on every rank.
     /// @param progress  called now and then with the nodes done and their
     /// number

@@ -42,6 +42,12 @@ namespace Perimorph::Application
     void
     prepare();
 
+    /// After prepare(): solves the first load step and halves the elements with
+    /// the largest errors, as often as was asked for.
+    /// @throws Base::InputError, Base::SolveError
+    void
+    refine_by_error();
+
     /// Reports what prepare() found, for --validate.
     void
     report_validation();
@@ -94,6 +100,9 @@ namespace Perimorph::Application
 
     void
     read_mesh();
+    /// What depends on the mesh.
+    void
+    prepare_body();
     void
     make_mesh(const Mesh::GmshMesh<dim> &gmsh_mesh);
     /// The mesh as it is wanted around the peridynamic region.
@@ -390,6 +399,7 @@ namespace Perimorph::Application
     std::unique_ptr<Mesh::DistributedMesh<dim>> mesh;
     unsigned int                                n_coarse_nodes       = 0;
     bool                                        hanging_is_announced = false;
+    std::vector<Parameters::Feature>            region_features; ///< as given
     Coupling::BodyMaterials<dim>                materials;
     Bonds::CrackSet<dim>                        cracks;
     Mesh::RegionMap                             region;

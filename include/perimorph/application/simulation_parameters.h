@@ -36,8 +36,10 @@ namespace Perimorph::Application
 
     std::string mesh_file, geometry_parameters;
 
-    double      target_spacing = 0., grading     = 0.2;
-    std::string refined_places, refined_distance = "1 horizons",
+    double target_spacing = 0., grading = 0.2, error_tolerance = 0.,
+           refined_fraction   = 0.5;
+    unsigned int error_cycles = 0;
+    std::string  refined_places, refined_distance = "1 horizons",
                                 curved_boundaries = "automatic";
 
     std::string law = "linear elastic", state = "automatic", by_volume;

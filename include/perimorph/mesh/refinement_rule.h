@@ -16,6 +16,11 @@ namespace Perimorph::Mesh
     Parameters::Length distance = {1., true, false};
     double grading     = 0.2; ///< growth of the spacing with the distance
     bool   find_curves = true;
+    /// Solves whose errors halve cells further, while the relative error is
+    /// larger than the tolerance; each the cells of a fraction of the error.
+    unsigned int error_cycles    = 0;
+    double       error_tolerance = 0.;
+    double       error_fraction  = 0.5;
   };
 
   /// Cells whose mean edge is longer than wanted: the target spacing in the
