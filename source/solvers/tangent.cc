@@ -48,6 +48,27 @@ namespace Perimorph::Solvers
         }
       return pattern;
     }
+
+    /// Calls an action for the positions in a block of nodes that are coupled
+    /// with each other.
+    template <typename Action>
+    void
+    for_coupled(const bool is_star, const unsigned int n, const Action &action)
+    {
+      std::vector<unsigned int> positions;
+      if (is_star && n > 1)
+        for (unsigned int k = 1; k < n; ++k)
+          {
+            positions = {0, k};
+            action(positions);
+          }
+      else
+        {
+          for (unsigned int k = 0; k < n; ++k)
+            positions.push_back(k);
+          action(positions);
+        }
+    }
   } // namespace
 
   template <int dim>
@@ -76,22 +97,25 @@ namespace Perimorph::Solvers
       for (unsigned int block = 0; block < term->n_blocks(); ++block)
         {
           term->block_nodes(block, nodes);
-          global.resize(nodes.size());
-          for (unsigned int k = 0; k < nodes.size(); ++k)
-            global[k] = partition.global(nodes[k]);
-          if (!masters.empty())
-            for (const unsigned int node : nodes)
+          for_coupled(term->has_stars(), nodes.size(), [&](const auto &coupled) {
+            global.clear();
+            for (const unsigned int k : coupled)
               {
-                const auto found = masters.find(partition.global(node));
+                global.push_back(partition.global(nodes[k]));
+                if (masters.empty())
+                  continue;
+                const auto found = masters.find(global.back());
                 if (found != masters.end())
                   global.insert(global.end(),
                                 found->second.begin(),
                                 found->second.end());
               }
-          std::sort(global.begin(), global.end());
-          global.erase(std::unique(global.begin(), global.end()), global.end());
-          for (const auto row : global)
-            graph.add_entries(row, global.begin(), global.end(), true);
+            std::sort(global.begin(), global.end());
+            global.erase(std::unique(global.begin(), global.end()),
+                         global.end());
+            for (const auto row : global)
+              graph.add_entries(row, global.begin(), global.end(), true);
+          });
         }
     // Unknowns that dependent ones share.
     for (const auto &line : constraints.get_lines())
@@ -182,25 +206,41 @@ namespace Perimorph::Solvers
     const std::function<void(std::size_t)> &progress) const
   {
     matrix = 0.;
-    dealii::FullMatrix<double>                   local;
+    dealii::FullMatrix<double>                   local, coupled_part;
     std::vector<unsigned int>                    nodes;
-    std::vector<dealii::types::global_dof_index> dofs;
+    std::vector<dealii::types::global_dof_index> dofs, rows;
     std::size_t                                  done = 0;
     for (const auto *term : terms)
       for (unsigned int block = 0; block < term->n_blocks(); ++block)
         {
           term->block_nodes(block, nodes);
           term->block_tangent(block, displacement, local);
-          dofs.resize(dim * nodes.size());
-          for (unsigned int k = 0; k < nodes.size(); ++k)
-            for (int d = 0; d < dim; ++d)
+          if (!term->is_symmetric())
+            for (unsigned int row = 0; row < local.m(); ++row)
+              for (unsigned int c = 0; c < local.n(); ++c)
+                local(row, c) *= term->row_weight(nodes[row / dim]);
+          for_coupled(term->has_stars(), nodes.size(), [&](const auto &coupled) {
+            dofs.clear();
+            rows.clear();
+            for (const unsigned int k : coupled)
+              for (int d = 0; d < dim; ++d)
+                {
+                  dofs.push_back(dim * partition.global(nodes[k]) + d);
+                  rows.push_back(dim * k + d);
+                }
+            if (rows.size() == local.m())
               {
-                dofs[dim * k + d] = dim * partition.global(nodes[k]) + d;
-                if (!term->is_symmetric())
-                  for (unsigned int c = 0; c < local.n(); ++c)
-                    local(dim * k + d, c) *= term->row_weight(nodes[k]);
+                constraints.distribute_local_to_global(local, dofs, matrix);
+                return;
               }
-          constraints.distribute_local_to_global(local, dofs, matrix);
+            coupled_part.reinit(rows.size(), rows.size());
+            coupled_part.extract_submatrix_from(local, rows, rows);
+            constraints.distribute_local_to_global(coupled_part, dofs, matrix);
+            // The node in the middle counts once.
+            for (int i = 0; i < dim; ++i)
+              for (int j = 0; j < dim; ++j)
+                local(i, j) = 0.;
+          });
           if (progress && ++done % 1000 == 0)
             progress(done);
         }

@@ -52,6 +52,11 @@ namespace Perimorph::Coupling
     void
     block_nodes(unsigned int               block,
                 std::vector<unsigned int> &nodes) const override;
+    bool
+    has_stars() const override
+    {
+      return true;
+    }
     void
     block_tangent(unsigned int                block,
                   const Vector               &displacement,

@@ -51,6 +51,14 @@ namespace Perimorph::Fem
     virtual void
     block_nodes(unsigned int block, std::vector<unsigned int> &nodes) const = 0;
 
+    /// Blocks couple their first node with each of the others, but not the
+    /// others among each other.
+    virtual bool
+    has_stars() const
+    {
+      return false;
+    }
+
     /// Tangent of one block, rows and columns dim * (position in block_nodes) +
     /// component; row weights are applied by the caller.
     virtual void
