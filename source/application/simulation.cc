@@ -288,11 +288,14 @@ namespace Perimorph::Application
                   "elements alone are their own reference");
 
     const auto &choice = method.equilibrium->choice();
-    const auto  name   = std::string(choice.direct ? "direct (MUMPS)"
-                                  : method.equilibrium->is_symmetric()
-                                    ? "conjugate gradients with multigrid"
-                                    : "GMRES with multigrid") +
-                      (choice.matrix_free ? ", matrix-free families" : "");
+    const auto  name =
+      std::string(choice.direct ? "direct (MUMPS)"
+                  : method.equilibrium->is_symmetric()
+                    ? "conjugate gradients with multigrid"
+                    : "GMRES with multigrid") +
+      (!choice.matrix_free              ? ""
+       : method.problem->has_families() ? ", matrix-free families"
+                                        : ", matrix-free bonds");
     result->set("solver", "linear_solver", name);
     result->set("solver", "reason", choice.reason);
 

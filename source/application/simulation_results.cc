@@ -327,7 +327,7 @@ namespace Perimorph::Application
                   solver.linear_solves() - solver.linear_solvers_made());
     if (solver.choice().entries_saved > 0.)
       result->set("skipped",
-                  "matrix_entries_of_families",
+                  "matrix_entries_of_particles",
                   static_cast<std::size_t>(solver.choice().entries_saved));
     if (factor_memory && factor_memory->n_reused > 0)
       result->set("skipped",

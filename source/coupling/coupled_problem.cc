@@ -25,9 +25,9 @@ namespace Perimorph::Coupling
 
   template <int dim>
   std::vector<const Fem::Contribution<dim> *>
-  CoupledProblem<dim>::family_terms() const
+  CoupledProblem<dim>::particle_terms() const
   {
-    return families;
+    return of_particles;
   }
 
   template <int dim>
@@ -36,8 +36,8 @@ namespace Perimorph::Coupling
   {
     std::vector<const Term *> list;
     for (const auto &term : contributions)
-      if (std::find(families.begin(), families.end(), term.get()) ==
-          families.end())
+      if (std::find(of_particles.begin(), of_particles.end(), term.get()) ==
+          of_particles.end())
         list.push_back(term.get());
     return list;
   }
@@ -140,15 +140,14 @@ namespace Perimorph::Coupling
   std::vector<unsigned int>
   CoupledProblem<dim>::parts(const Mesh::RegionMap &region) const
   {
-    return bond_set.nodes.empty() && !families.empty()
-             ? find_parts(mesh.nodal(),
-                          region.alpha,
-                          correspondence_families(),
-                          mesh.communicator())
-             : find_parts(mesh.nodal(),
-                          region.alpha,
-                          bond_set.nodes,
-                          mesh.communicator());
+    return families_exist ? find_parts(mesh.nodal(),
+                                       region.alpha,
+                                       correspondence_families(),
+                                       mesh.communicator())
+                          : find_parts(mesh.nodal(),
+                                       region.alpha,
+                                       bond_set.nodes,
+                                       mesh.communicator());
   }
 
   template <int dim>

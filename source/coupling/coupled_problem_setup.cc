@@ -175,7 +175,7 @@ namespace Perimorph::Coupling
                                                  partition(),
                                                  materials.laws,
                                                  std::vector<double>());
-    preconditioner = families.empty()
+    preconditioner = of_particles.empty()
                        ? parts_to_share.all_cells
                        : softened_elements(mesh.nodal(),
                                            region.alpha,
@@ -256,7 +256,8 @@ namespace Perimorph::Coupling
     auto term = std::make_unique<CorrespondenceTerm<dim>>(std::move(set),
                                                           partition(),
                                                           materials.laws);
-    families.push_back(term.get());
+    of_particles.push_back(term.get());
+    families_exist = true;
     add_terms(region,
               parameters.scheme,
               complement(region.alpha),
@@ -364,6 +365,7 @@ namespace Perimorph::Coupling
         std::make_unique<FiniteBondTerm<dim>>(coupling.bonds, partition());
     else
       bonds = std::make_unique<BondTerm<dim>>(coupling.bonds, partition());
+    of_particles.push_back(bonds.get());
     add_terms(region,
               parameters.scheme,
               consistent ? std::vector<double>() : complement(region.alpha),

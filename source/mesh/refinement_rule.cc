@@ -127,10 +127,8 @@ namespace Perimorph::Mesh
               const auto limit = [&](const auto &place) {
                 return reach(place, with_region) + std::max(radius, slope);
               };
-              const auto closest = distance.closest_to_cell(
-                nodal,
-                c,
-                [&](const auto &place) {
+              const auto closest =
+                distance.closest_to_cell(nodal, c, [&](const auto &place) {
                   const double far = limit(place);
                   return typename FeatureDistance<dim>::Range{.8 * far, far};
                 });

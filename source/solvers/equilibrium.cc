@@ -21,7 +21,7 @@ namespace Perimorph::Solvers
       bool                      found = false;
       std::vector<unsigned int> nodes;
       if (!hanging.empty())
-        for (const auto *term : problem.family_terms())
+        for (const auto *term : problem.particle_terms())
           for (unsigned int block = 0; block < term->n_blocks(); ++block)
             {
               term->block_nodes(block, nodes);
@@ -36,16 +36,18 @@ namespace Perimorph::Solvers
 
     template <int dim>
     ProblemSize
-    problem_size(const Coupling::CoupledProblem<dim> &problem)
+    problem_size(const Coupling::CoupledProblem<dim> &problem,
+                 const bool                           reuses_factors)
     {
       ProblemSize size;
-      const auto  counts = problem.counts();
-      size.dim           = dim;
-      size.n_dofs        = problem.partition().owned_dofs().size();
-      size.n_particles   = counts.particles;
-      size.n_bonds       = counts.bonds;
-      size.families      = !problem.family_terms().empty();
-      size.n_ranks       = dealii::Utilities::MPI::n_mpi_processes(
+      const auto  counts  = problem.counts();
+      size.dim            = dim;
+      size.n_dofs         = problem.partition().owned_dofs().size();
+      size.n_particles    = counts.particles;
+      size.n_bonds        = counts.bonds;
+      size.families       = problem.has_families();
+      size.reuses_factors = reuses_factors;
+      size.n_ranks        = dealii::Utilities::MPI::n_mpi_processes(
         problem.partition().communicator());
       return size;
     }
@@ -65,9 +67,10 @@ namespace Perimorph::Solvers
     , log(log)
     , timing(timing)
     , follower(mesh, problem.partition(), loads.surface_loads())
-    , solver_choice(choose_linear_solver(parameters.linear_solver,
-                                         parameters.tangent,
-                                         problem_size(problem)))
+    , solver_choice(choose_linear_solver(
+        parameters.linear_solver,
+        parameters.tangent,
+        problem_size(problem, parameters.memory != nullptr)))
     , constraints(problem.partition(),
                   supports,
                   mesh.nodal().hanging,
@@ -213,7 +216,7 @@ namespace Perimorph::Solvers
                                       : matrix;
     tangent                       = std::make_unique<TangentOperator<dim>>(
       matrix,
-      solver_choice.matrix_free ? problem.family_terms()
+      solver_choice.matrix_free ? problem.particle_terms()
                                                       : std::vector<const Fem::Contribution<dim> *>(),
       displacement,
       constraints.lines(),

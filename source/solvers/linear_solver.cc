@@ -24,26 +24,32 @@ namespace Perimorph::Solvers
                                   double(size.n_particles) * size.dim /
                                     std::max<std::size_t>(1, size.n_dofs));
     // A row of the assembled tangent of a family reaches two horizons.
-    const double reach    = !size.families ? 1. : size.dim == 2 ? 3.2 : 5.;
-    const double elements = size.dim == 2 ? 9. : 27.;
-    const double fill =
-      (1. - share) * elements + share * std::max(1., reach * neighbors);
-    const double fill_ratio = std::max(1., fill / elements);
+    const double two_horizons = size.dim == 2 ? 3.2 : 5.;
+    const double reach        = size.families ? two_horizons : 1.;
+    const double elements     = size.dim == 2 ? 9. : 27.;
+    const auto   fill         = [&](const double rows) {
+      return (1. - share) * elements + share * std::max(1., rows * neighbors);
+    };
 
     LinearSolverChoice choice;
     std::ostringstream reason;
     reason << size.n_dofs << " unknowns, about "
-           << static_cast<int>(fill * size.dim) << " entries per row";
+           << static_cast<int>(fill(reach) * size.dim) << " entries per row";
     if (solver == LinearSolverKind::automatic)
       {
-        // Measured: where both take the same time. Iterations gain from ranks,
-        // factorisation does not.
+        // Measured: where both take the same time. A product with bonds is as
+        // much cheaper than their matrix as one with families. Iterations gain
+        // from ranks, factorisation does not, but from many similar problems.
+        const bool   once = !size.reuses_factors;
+        const double fill_ratio =
+          std::max(1., fill(once ? two_horizons : reach) / elements);
         const double cost =
-          size.n_dofs * std::pow(fill_ratio, size.dim == 2 ? 2. : 1.);
-        const double limit =
-          size.dim == 3 ? 6000.
-                        : 800000. / (double(size.n_ranks) * size.n_ranks);
-        choice.direct = cost < limit;
+          size.n_dofs * std::pow(fill_ratio, size.dim == 2 && once ? 2. : 1.);
+        const double limit = size.dim == 3 ? 6000.
+                             : once
+                               ? 800000. / std::pow(double(size.n_ranks), 2)
+                               : 150000.;
+        choice.direct      = cost < limit;
         reason << (choice.direct ? ": small enough to factorise"
                                  : ": too large to factorise cheaply");
       }
@@ -52,13 +58,13 @@ namespace Perimorph::Solvers
         choice.direct = solver == LinearSolverKind::direct;
         reason << "; as the parameter file says";
       }
-    choice.matrix_free      = false;
-    const bool has_families = size.families && size.n_particles > 0;
-    if (!choice.direct && has_families)
+    choice.matrix_free = false;
+    if (!choice.direct && size.n_particles > 0)
       choice.matrix_free =
         tangent == TangentKind::matrix_free ||
         (tangent == TangentKind::automatic && neighbors > 0.);
-    if (choice.direct && tangent == TangentKind::matrix_free && has_families)
+    if (choice.direct && tangent == TangentKind::matrix_free &&
+        size.n_particles > 0)
       {
         choice.direct      = false;
         choice.matrix_free = true;

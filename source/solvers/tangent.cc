@@ -97,25 +97,28 @@ namespace Perimorph::Solvers
       for (unsigned int block = 0; block < term->n_blocks(); ++block)
         {
           term->block_nodes(block, nodes);
-          for_coupled(term->has_stars(), nodes.size(), [&](const auto &coupled) {
-            global.clear();
-            for (const unsigned int k : coupled)
-              {
-                global.push_back(partition.global(nodes[k]));
-                if (masters.empty())
-                  continue;
-                const auto found = masters.find(global.back());
-                if (found != masters.end())
-                  global.insert(global.end(),
-                                found->second.begin(),
-                                found->second.end());
-              }
-            std::sort(global.begin(), global.end());
-            global.erase(std::unique(global.begin(), global.end()),
-                         global.end());
-            for (const auto row : global)
-              graph.add_entries(row, global.begin(), global.end(), true);
-          });
+          for_coupled(
+            term->has_stars(),
+            nodes.size(),
+            [&](const auto &coupled) {
+              global.clear();
+              for (const unsigned int k : coupled)
+                {
+                  global.push_back(partition.global(nodes[k]));
+                  if (masters.empty())
+                    continue;
+                  const auto found = masters.find(global.back());
+                  if (found != masters.end())
+                    global.insert(global.end(),
+                                  found->second.begin(),
+                                  found->second.end());
+                }
+              std::sort(global.begin(), global.end());
+              global.erase(std::unique(global.begin(), global.end()),
+                           global.end());
+              for (const auto row : global)
+                graph.add_entries(row, global.begin(), global.end(), true);
+            });
         }
     // Unknowns that dependent ones share.
     for (const auto &line : constraints.get_lines())
@@ -219,28 +222,33 @@ namespace Perimorph::Solvers
             for (unsigned int row = 0; row < local.m(); ++row)
               for (unsigned int c = 0; c < local.n(); ++c)
                 local(row, c) *= term->row_weight(nodes[row / dim]);
-          for_coupled(term->has_stars(), nodes.size(), [&](const auto &coupled) {
-            dofs.clear();
-            rows.clear();
-            for (const unsigned int k : coupled)
-              for (int d = 0; d < dim; ++d)
+          for_coupled(
+            term->has_stars(),
+            nodes.size(),
+            [&](const auto &coupled) {
+              dofs.clear();
+              rows.clear();
+              for (const unsigned int k : coupled)
+                for (int d = 0; d < dim; ++d)
+                  {
+                    dofs.push_back(dim * partition.global(nodes[k]) + d);
+                    rows.push_back(dim * k + d);
+                  }
+              if (rows.size() == local.m())
                 {
-                  dofs.push_back(dim * partition.global(nodes[k]) + d);
-                  rows.push_back(dim * k + d);
+                  constraints.distribute_local_to_global(local, dofs, matrix);
+                  return;
                 }
-            if (rows.size() == local.m())
-              {
-                constraints.distribute_local_to_global(local, dofs, matrix);
-                return;
-              }
-            coupled_part.reinit(rows.size(), rows.size());
-            coupled_part.extract_submatrix_from(local, rows, rows);
-            constraints.distribute_local_to_global(coupled_part, dofs, matrix);
-            // The node in the middle counts once.
-            for (int i = 0; i < dim; ++i)
-              for (int j = 0; j < dim; ++j)
-                local(i, j) = 0.;
-          });
+              coupled_part.reinit(rows.size(), rows.size());
+              coupled_part.extract_submatrix_from(local, rows, rows);
+              constraints.distribute_local_to_global(coupled_part,
+                                                     dofs,
+                                                     matrix);
+              // The node in the middle counts once.
+              for (int i = 0; i < dim; ++i)
+                for (int j = 0; j < dim; ++j)
+                  local(i, j) = 0.;
+            });
           if (progress && ++done % 1000 == 0)
             progress(done);
         }

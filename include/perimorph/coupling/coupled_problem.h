@@ -135,13 +135,20 @@ namespace Perimorph::Coupling
     }
 
     /// All contributions, or only those that may be applied without a matrix
-    /// (families) or must be assembled (the others).
+    /// (families or bonds) or must be assembled (the others).
     std::vector<const Term *>
     terms() const;
     std::vector<const Term *>
-    family_terms() const;
+    particle_terms() const;
     std::vector<const Term *>
     assembled_terms() const;
+
+    /// Bonds are those of families, not springs between two particles.
+    bool
+    has_families() const
+    {
+      return families_exist;
+    }
 
     /// Plain finite elements everywhere, the reference of the patch test.
     const Fem::ElasticCells<dim> &
@@ -282,7 +289,8 @@ namespace Perimorph::Coupling
     std::vector<unsigned int>               more_nodes;
     SharedParts<dim>                        parts_to_share;
     std::vector<std::shared_ptr<Term>>      contributions;
-    std::vector<const Term *>               families;
+    std::vector<const Term *>               of_particles;
+    bool                                    families_exist = false;
     std::shared_ptr<Fem::ElasticCells<dim>> preconditioner;
     BondSet                                 bond_set;
     Counts                                  local_counts;

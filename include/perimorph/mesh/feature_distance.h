@@ -43,7 +43,8 @@ namespace Perimorph::Mesh
     using RangeOf = std::function<Range(const dealii::Point<dim> &)>;
 
     /// For a node of the mesh; zero for the nodes of a named volume.
-    /// @param range  a node that is certainly nearer or farther gets the nearest
+    /// @param range  a node that is certainly nearer or farther gets the
+    /// nearest
     ///        corner of the feature instead of the nearest point
     ClosestPoint<dim>
     closest_to_node(const NodalMesh<dim> &mesh,

@@ -30,12 +30,13 @@ namespace Perimorph::Solvers
   /// What the choice of the linear solver depends on.
   struct ProblemSize
   {
-    unsigned int dim         = 2;
-    std::size_t  n_dofs      = 0;
-    std::size_t  n_particles = 0;
-    std::size_t  n_bonds     = 0;     ///< of all particles, both directions
-    bool         families    = false; ///< bonds of the correspondence model
-    unsigned int n_ranks     = 1;
+    unsigned int dim            = 2;
+    std::size_t  n_dofs         = 0;
+    std::size_t  n_particles    = 0;
+    std::size_t  n_bonds        = 0;     ///< of all particles, both directions
+    bool         families       = false; ///< bonds of the correspondence model
+    unsigned int n_ranks        = 1;
+    bool         reuses_factors = false; ///< for problems that differ little
   };
 
   /// A decision and the reason that is printed with it.

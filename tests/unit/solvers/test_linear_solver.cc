@@ -34,11 +34,23 @@ namespace Perimorph::Solvers
     size.n_bonds = 28 * size.n_particles;
     EXPECT_FALSE(automatic(size).direct);
     EXPECT_TRUE(automatic(size).matrix_free);
-    // Bonds are pairs: no matrix-free product, but few entries.
+    // Rows of bonds have a third of the entries, which counts if factors are
+    // used again.
     size.families = false;
+    EXPECT_FALSE(automatic(size).direct);
+    EXPECT_TRUE(automatic(size).matrix_free);
+    size.n_dofs         = 80000;
+    size.n_particles    = 10000;
+    size.n_bonds        = 28 * size.n_particles;
+    size.reuses_factors = true;
     EXPECT_TRUE(automatic(size).direct);
-    EXPECT_FALSE(automatic(size).matrix_free);
+    size.families = true;
+    EXPECT_FALSE(automatic(size).direct);
+
     // Factorisation gains nothing from more ranks.
+    size        = ProblemSize();
+    size.n_dofs = 200000;
+    EXPECT_TRUE(automatic(size).direct);
     size.n_ranks = 3;
     EXPECT_FALSE(automatic(size).direct);
 
