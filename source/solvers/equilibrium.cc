@@ -12,11 +12,11 @@ namespace Perimorph::Solvers
 {
   namespace
   {
-    /// Whether families of any rank have a hanging node.
+    /// Whether families or bonds of any rank have a hanging node.
     template <int dim>
     bool
-    families_hang(const Coupling::CoupledProblem<dim> &problem,
-                  const Mesh::HangingPoints           &hanging)
+    particles_hang(const Coupling::CoupledProblem<dim> &problem,
+                   const Mesh::HangingPoints           &hanging)
     {
       bool                      found = false;
       std::vector<unsigned int> nodes;
@@ -84,7 +84,7 @@ namespace Perimorph::Solvers
         solver_choice.reason += "; assembled because supports couple unknowns";
       }
     if (solver_choice.matrix_free &&
-        families_hang(problem, mesh.nodal().hanging))
+        particles_hang(problem, mesh.nodal().hanging))
       {
         solver_choice.matrix_free = false;
         solver_choice.reason += "; assembled because of hanging nodes";
@@ -214,14 +214,15 @@ namespace Perimorph::Solvers
     const auto &preconditioner_of = solver_choice.matrix_free || !is_linear()
                                       ? preconditioner_matrix
                                       : matrix;
-    tangent                       = std::make_unique<TangentOperator<dim>>(
-      matrix,
-      solver_choice.matrix_free ? problem.particle_terms()
-                                                      : std::vector<const Fem::Contribution<dim> *>(),
-      displacement,
-      constraints.lines(),
-      preconditioner_of,
-      problem.partition().owned_dofs());
+    const Terms particles =
+      solver_choice.matrix_free ? problem.particle_terms() : Terms();
+    tangent =
+      std::make_unique<TangentOperator<dim>>(matrix,
+                                             particles,
+                                             displacement,
+                                             constraints.lines(),
+                                             preconditioner_of,
+                                             problem.partition().owned_dofs());
     if (preconditioner_is_kept)
       return;
     ++n_linear_solvers;

@@ -23,16 +23,9 @@ namespace Perimorph::Solvers
       {
         const double ratio = residual / last_residual;
         term               = gamma * ratio * ratio;
-        // A term must not fall faster than the last one allows.
-        const double safeguard = gamma * last_term * last_term;
-        if (safeguard > 0.1)
-          term = std::max(term, safeguard);
-        term = std::min(term, largest);
       }
     last_residual = residual;
-    last_term     = std::max({term, enough, tightest});
-    last_term     = std::min(last_term, largest);
-    return last_term;
+    return std::min(std::max({term, enough, tightest}), largest);
   }
 
   PreconditionerAge::PreconditionerAge(const double price)

@@ -4,8 +4,10 @@ namespace Perimorph::Solvers
 {
   /// How far the linear solve of a Newton step has to go: Eisenstat and Walker,
   /// SIAM J. Sci. Comput. 17 (1996) 16, choice 2 with gamma = 0.9, alpha = 2
-  /// and its safeguard. It never goes further than convergence of Newton's
-  /// method needs, which for a linear problem is all.
+  /// and at most 0.1, which makes its safeguard needless. It never goes further
+  /// than convergence of Newton's method needs. A linear problem has one solve,
+  /// which goes all the way: its result must not depend on the solver or on the
+  /// number of ranks.
   class ForcingTerm
   {
   public:
@@ -23,7 +25,6 @@ namespace Perimorph::Solvers
     double tightest;
     bool   linear;
     double last_residual = 0.;
-    double last_term     = 0.;
   };
 
   /// Whether a preconditioner that was made for an earlier tangent still pays:
