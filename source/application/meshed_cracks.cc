@@ -41,26 +41,6 @@ namespace Perimorph::Application
                  .measure();
     }
 
-    template <int dim>
-    double
-    distance(const Mesh::NodalMesh<dim>    &mesh,
-             const Mesh::BoundaryFace<dim> &face,
-             const dealii::Point<dim>      &point)
-    {
-      const auto corner = [&](const unsigned int v) {
-        return mesh.nodes[face.nodes[v]];
-      };
-      if constexpr (dim == 2)
-        return point.distance(
-          Mesh::closest_on_segment(point, corner(0), corner(1)));
-      else
-        return std::min(
-          point.distance(
-            Mesh::closest_on_triangle(point, corner(0), corner(1), corner(2))),
-          point.distance(
-            Mesh::closest_on_triangle(point, corner(3), corner(1), corner(2))));
-    }
-
     /// Moves an end on the outer surface outwards.
     /// @throws Base::InputError  an end on a slit that goes on
     void
@@ -76,7 +56,7 @@ namespace Perimorph::Application
           const auto  &a = mesh.nodes[face.nodes[0]];
           const auto  &b = mesh.nodes[face.nodes[1]];
           const double h = a.distance(b);
-          if (distance(mesh, face, end) > 1e-3 * h)
+          if (Fracture::face_distance(mesh, face, end) > 1e-3 * h)
             continue;
           const auto middle = a + 0.5 * (b - a);
           for (const auto &other : others)
@@ -195,7 +175,7 @@ namespace Perimorph::Application
         return;
       const auto is_on = [&](const auto &faces, const auto &point) {
         return std::any_of(faces.begin(), faces.end(), [&](const auto &face) {
-          return distance(mesh, face, point.position) <
+          return Fracture::face_distance(mesh, face, point.position) <
                  1e-3 * mesh.spacing[face.nodes[0]];
         });
       };

@@ -154,8 +154,8 @@ namespace Perimorph::Application
     prm.add_parameter(
       "horizon ratio",
       horizon_ratio,
-      "m = horizon / local spacing [-]; 1.5 is most accurate, 2 "
-      "usual, 3 for free crack paths.",
+      "m = horizon / local spacing [-]; 1.5 is cheapest, 2 usual, 3 for "
+      "free crack paths.",
       Double(1.));
     prm.add_parameter(
       "horizon",
@@ -176,6 +176,15 @@ namespace Perimorph::Application
       "consistent: exact patch test on any mesh. energy blending, force "
       "blending: classical, uncorrected, with ghost forces; for comparison.",
       choice(Coupling::scheme_names()));
+    prm.add_parameter(
+      "gradient support",
+      gradient_support,
+      "What the deformation gradient of a particle is averaged over "
+      "(correspondence model). adjacent cells: those at the particle; fewer "
+      "bonds, smaller errors. horizon: all in the horizon, so that stresses "
+      "are nonlocal over it. automatic: adjacent cells, but the horizon with "
+      "cracks.",
+      choice(automatic_or(Coupling::gradient_support_names())));
     prm.add_parameter("stabilization",
                       stabilization,
                       "gamma [-] of the zero-energy stabilisation; 1 fits all, "
@@ -185,8 +194,8 @@ namespace Perimorph::Application
       "stabilization scale",
       stabilization_scale,
       "bending: the energy of bending fields is exact for gamma "
-      "= 1. shear modulus: gamma mu tr(K^-1) / dim. automatic: bending in "
-      "2D, shear modulus in 3D.",
+      "= 1. shear modulus: gamma mu tr(K^-1) / dim. automatic: bending, "
+      "but shear modulus in 3D for gradients over the horizon.",
       choice({"automatic", "bending", "shear modulus"}));
     prm.leave_subsection();
 

@@ -309,7 +309,10 @@ namespace Perimorph::Application
       log
         << ", influence function "
         << Peridynamics::influence_function_names()[static_cast<int>(
-             influence_function_of(parameters.coupling, nodal, method.region))];
+             influence_function_of(parameters.coupling, nodal, method.region))]
+        << ", gradients over "
+        << (has_wide_gradients(parameters.coupling) ? "the horizon"
+                                                    : "adjacent cells");
     log << "\n  " << method.region.n_core << " nodes peridynamic, "
         << method.region.n_blending << " blended, " << method.region.n_elements
         << " finite elements only; " << counts.bonds << " bonds, "

@@ -110,12 +110,13 @@ namespace Perimorph::Application
                       "2, or Mode = coupled with elements at the surface");
         return advice.list;
       }
-    advice.add_if(dim == 3 && poissons_ratios.first < -0.25,
+    const bool wide = has_wide_gradients(parameters);
+    advice.add_if(dim == 3 && wide && poissons_ratios.first < -0.25,
                   "families with Poisson's ratio",
                   poissons_ratios.first,
                   "the stabilisation makes coarse meshes too stiff in bending; "
                   "compare with a finer mesh");
-    advice.add_if(dim == 3 && ratio < 2.5 &&
+    advice.add_if(dim == 3 && wide && ratio < 2.5 &&
                     influence_function_of(parameters, mesh, region) ==
                       Peridynamics::InfluenceFunction::cubic_spline,
                   "influence function cubic spline in 3D with a horizon ratio "
@@ -132,17 +133,22 @@ namespace Perimorph::Application
                   "parameter 'Peridynamics / stabilization'",
                   gamma,
                   "bending becomes too stiff; 1 fits all");
-    advice.add_if(ratio > 3.01,
+    advice.add_if(wide && ratio > 3.01,
                   "families with a horizon ratio of",
                   ratio,
                   "wrong stiffness in bending unless the body is much thicker "
                   "than the horizon; usual value: 2");
-    advice.add_if(shapes.aspect > 2.5,
+    advice.add_if(!wide && finite_strain && ratio > 3.01,
+                  "families at finite strain with a horizon ratio of",
+                  ratio,
+                  "Newton's method may fail in compression; usual value: 2");
+    advice.add_if(shapes.aspect > 2.5 &&
+                    (wide || region.n_blending + region.n_elements > 0),
                   "families on cells with an aspect ratio of",
                   shapes.aspect,
                   "bending along the long sides may be wrong: elements beside "
-                  "them lock, and so do families in 3D. Use cells with a ratio "
-                  "below 2.5");
+                  "them lock, and so do families in 3D whose gradient support "
+                  "is the horizon. Use cells with a ratio below 2.5");
     return advice.list;
   }
 

@@ -4,6 +4,7 @@
 #include <perimorph/coupling/family_rows.h>
 #include <perimorph/mesh/cell_geometry.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -12,17 +13,23 @@ namespace Perimorph::Coupling
 {
   namespace
   {
+    /// In spacings: where the weights over the cells at a particle have fallen
+    /// off (numerics-explicit.md, section 2, ring form).
+    constexpr double adjacent_radius = 1.5;
+
     /// Averages of the finite-element gradients over supports, with weights of
     /// all particles that sum to alpha at every quadrature point.
     template <int dim>
     class SupportAverages
     {
     public:
+      /// @param supports  cells that a particle averages over
+      /// @param radius    where the weights of a node have fallen off
       /// @param cuts    who sees what; or null
       /// @param wanted  particles that averages will be asked for
       SupportAverages(const Mesh::NodalMesh<dim>             &mesh,
                       const std::vector<double>              &alpha,
-                      const std::vector<double>              &horizon,
+                      std::vector<double>                     radius,
                       const Peridynamics::InfluenceFunction   influence,
                       const std::vector<Bonds::ParticleSeed> &particles,
                       const Base::Csr<unsigned int>          &supports,
@@ -30,7 +37,7 @@ namespace Perimorph::Coupling
                       const std::vector<bool>                &wanted)
         : mesh(mesh)
         , alpha(alpha)
-        , horizon(horizon)
+        , radius(std::move(radius))
         , influence(influence)
         , particles(particles)
         , supports(supports)
@@ -129,12 +136,12 @@ namespace Perimorph::Coupling
         return alpha[node] * mesh.volume[node] *
                Peridynamics::averaging_weight(
                  influence,
-                 geometry.points[q].distance(mesh.nodes[node]) / horizon[node]);
+                 geometry.points[q].distance(mesh.nodes[node]) / radius[node]);
       }
 
       const Mesh::NodalMesh<dim>             &mesh;
       const std::vector<double>              &alpha;
-      const std::vector<double>              &horizon;
+      const std::vector<double>               radius;
       const Peridynamics::InfluenceFunction   influence;
       const std::vector<Bonds::ParticleSeed> &particles;
       const Base::Csr<unsigned int>          &supports;
@@ -147,6 +154,29 @@ namespace Perimorph::Coupling
       std::vector<std::array<double, n_points>> shares;
     };
 
+    /// The cells of the supports that are at the particle.
+    template <int dim>
+    Base::Csr<unsigned int>
+    cells_at(const Mesh::NodalMesh<dim>             &mesh,
+             const std::vector<Bonds::ParticleSeed> &particles,
+             const Base::Csr<unsigned int>          &supports)
+    {
+      Base::Csr<unsigned int> cells;
+      for (std::size_t p = 0; p < particles.size(); ++p)
+        {
+          for (const unsigned int c : supports.row(p))
+            {
+              const auto &corners = mesh.cells[c];
+              if (std::find(corners.begin(),
+                            corners.end(),
+                            particles[p].node) != corners.end())
+                cells.entries.push_back(c);
+            }
+          cells.close_row();
+        }
+      return cells;
+    }
+
     /// Node and gradient weight, divided by the volume.
     template <int dim>
     std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>>
@@ -158,6 +188,13 @@ namespace Perimorph::Coupling
       return list;
     }
   } // namespace
+
+  const std::vector<std::string> &
+  gradient_support_names()
+  {
+    static const std::vector<std::string> names = {"adjacent cells", "horizon"};
+    return names;
+  }
 
   template <int dim>
   Peridynamics::FamilySet<dim>
@@ -181,6 +218,15 @@ namespace Perimorph::Coupling
                                                 cracks,
                                                 particles,
                                                 supports);
+    const bool adjacent = parameters.support == GradientSupport::adjacent_cells;
+    Base::Csr<unsigned int> adjacent_cells;
+    std::vector<double>     radius = horizon;
+    if (adjacent)
+      {
+        adjacent_cells = cells_at(mesh, particles, supports);
+        for (unsigned int n = 0; n < mesh.n_nodes(); ++n)
+          radius[n] = adjacent_radius * mesh.spacing[n];
+      }
     const bool correct = cuts && parameters.crack_rule == CrackRule::consistent;
     std::vector<bool> wanted(particles.size());
     for (std::size_t p = 0; p < particles.size(); ++p)
@@ -188,10 +234,10 @@ namespace Perimorph::Coupling
         mesh.owns_node(particles[p].node) || (correct && cuts->in_system(p));
     const SupportAverages<dim> averages(mesh,
                                         alpha,
-                                        horizon,
+                                        std::move(radius),
                                         parameters.influence,
                                         particles,
-                                        supports,
+                                        adjacent ? adjacent_cells : supports,
                                         cuts.get(),
                                         wanted);
 
@@ -199,6 +245,7 @@ namespace Perimorph::Coupling
     Peridynamics::FamilySet<dim>      own, foreign;
     std::vector<FamilyReference<dim>> system;
     FamilyScratch<dim>                scratch(mesh.n_nodes());
+    std::vector<unsigned int>         nodes;
     for (std::size_t p = 0; p < particles.size(); ++p)
       {
         const auto        &particle = particles[p];
@@ -219,6 +266,17 @@ namespace Perimorph::Coupling
                       parameters.influence,
                       set);
         };
+        if (adjacent)
+          {
+            find_family_nodes(mesh,
+                              node,
+                              supports.row(p),
+                              horizon[node],
+                              true,
+                              nodes);
+            for (const unsigned int n : nodes)
+              scratch.at(n);
+          }
         const auto average = scaled(scratch, result.volume);
         scratch.clear();
         const bool is_cut = cuts && cuts->is_cut(p);
@@ -270,7 +328,7 @@ namespace Perimorph::Coupling
     const auto supports  = Bonds::find_supports(mesh, particles, horizon);
 
     Peridynamics::FamilySet<dim> set;
-    FamilyScratch<dim>           scratch(mesh.n_nodes());
+    std::vector<unsigned int>    nodes;
     for (std::size_t p = 0; p < particles.size(); ++p)
       {
         const auto        &particle = particles[p];
@@ -283,21 +341,18 @@ namespace Perimorph::Coupling
             {
               const Mesh::CellGeometry<dim> geometry(mesh.corners(c));
               for (unsigned int v = 0; v < geometry.n_nodes; ++v)
-                {
-                  scratch.at(mesh.cells[c][v]);
-                  if (mesh.cells[c][v] == node)
-                    for (unsigned int q = 0; q < geometry.n_points; ++q)
-                      volume += geometry.jxw[q] * geometry.shape_value(q, v);
-                }
+                if (mesh.cells[c][v] == node)
+                  for (unsigned int q = 0; q < geometry.n_points; ++q)
+                    volume += geometry.jxw[q] * geometry.shape_value(q, v);
             }
-        // Nodes within the horizon, reached over cells within it: not across a
-        // gap.
-        const double reach = horizon[node] * (1. + Bonds::horizon_slack);
-        for (const unsigned int c : supports.row(p))
-          for (const unsigned int n : mesh.cells[c])
-            if (mesh.nodes[n].distance(mesh.nodes[node]) <= reach)
-              scratch.at(n);
-        for (const unsigned int n : scratch.sorted_nodes())
+        // Reached over cells within the horizon: not across a gap.
+        find_family_nodes(mesh,
+                          node,
+                          supports.row(p),
+                          horizon[node],
+                          true,
+                          nodes);
+        for (const unsigned int n : nodes)
           if (n != node && !cracks.crosses(mesh.nodes[node], mesh.nodes[n]))
             append_bond(mesh,
                         node,
@@ -306,7 +361,6 @@ namespace Perimorph::Coupling
                         horizon[node],
                         parameters.influence,
                         set);
-        scratch.clear();
         const auto inverse = inverse_shape_tensor(mesh, set, node);
         use_shape_tensor(mesh, node, inverse, set);
         close_row(particle, alpha[node] * volume, parameters, inverse, set);

@@ -200,8 +200,11 @@ namespace Perimorph::Coupling
     FamilyParameters options{
       influence_function_of(parameters, nodal, region),
       parameters.gamma,
-      parameters.scale.value_or(dim == 2 ? StabilizationScale::bending
-                                         : StabilizationScale::shear_modulus),
+      parameters.scale.value_or(dim == 3 && parameters.support ==
+                                              GradientSupport::horizon
+                                  ? StabilizationScale::shear_modulus
+                                  : StabilizationScale::bending),
+      parameters.support,
       parameters.crack_rule,
       {},
       progress};

@@ -206,12 +206,13 @@ namespace Perimorph::Coupling
   {
     const unsigned int        node = particles[particle].node;
     std::vector<unsigned int> all;
-    for (const unsigned int c : supports.row(particle))
-      for (const unsigned int n : mesh.cells[c])
-        if (n != node)
-          all.push_back(n);
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+    find_family_nodes(mesh,
+                      node,
+                      supports.row(particle),
+                      horizon[node],
+                      parameters.support == GradientSupport::adjacent_cells,
+                      all);
+    all.erase(std::find(all.begin(), all.end(), node));
     const auto take_visible = [&](const std::vector<unsigned int> &candidates) {
       family.neighbors.clear();
       for (const unsigned int n : candidates)

@@ -145,30 +145,33 @@ namespace Perimorph::Fracture
 
   template <int dim>
   double
+  face_distance(const Mesh::NodalMesh<dim>    &mesh,
+                const Mesh::BoundaryFace<dim> &face,
+                const dealii::Point<dim>      &point)
+  {
+    const auto corner = [&](const unsigned int v) {
+      return mesh.nodes[face.nodes[v]];
+    };
+    if constexpr (dim == 2)
+      return point.distance(
+        Mesh::closest_on_segment(point, corner(0), corner(1)));
+    else
+      return std::min(
+        point.distance(
+          Mesh::closest_on_triangle(point, corner(0), corner(1), corner(2))),
+        point.distance(
+          Mesh::closest_on_triangle(point, corner(3), corner(1), corner(2))));
+  }
+
+  template <int dim>
+  double
   boundary_distance(const Mesh::NodalMesh<dim> &mesh,
                     const Surface<dim>         &surface,
                     const dealii::Point<dim>   &point)
   {
     double smallest = std::numeric_limits<double>::infinity();
     for (const auto &face : surface)
-      {
-        const auto corner = [&](const unsigned int v) {
-          return mesh.nodes[face.nodes[v]];
-        };
-        if constexpr (dim == 2)
-          smallest =
-            std::min(smallest,
-                     point.distance(
-                       Mesh::closest_on_segment(point, corner(0), corner(1))));
-        else
-          for (const unsigned int v : {0u, 3u})
-            smallest =
-              std::min(smallest,
-                       point.distance(Mesh::closest_on_triangle(point,
-                                                                corner(1),
-                                                                corner(2),
-                                                                corner(v))));
-      }
+      smallest = std::min(smallest, face_distance(mesh, face, point));
     return smallest;
   }
 
@@ -286,6 +289,9 @@ namespace Perimorph::Fracture
   template bool   is_inside<dim>(const Mesh::NodalMesh<dim> &,         \
                                const Surface<dim> &,                 \
                                const dealii::Point<dim> &);          \
+  template double face_distance<dim>(const Mesh::NodalMesh<dim> &,     \
+                                     const Mesh::BoundaryFace<dim> &,  \
+                                     const dealii::Point<dim> &);      \
   template double boundary_distance<dim>(const Mesh::NodalMesh<dim> &, \
                                          const Surface<dim> &,         \
                                          const dealii::Point<dim> &);

@@ -1,5 +1,6 @@
 #include <perimorph/fracture/crack_tips.h>
 #include <perimorph/fracture/nucleated_crack.h>
+#include <perimorph/fracture/segment_growth.h>
 #include <perimorph/mesh/feature_distance.h>
 
 #include <algorithm>
@@ -91,22 +92,10 @@ namespace Perimorph::Fracture
             const dealii::Point<2>   &through,
             const double              more)
     {
-      const auto   along   = through - from;
-      const double length  = along.norm();
-      double       nearest = infinity;
-      for (const auto &face : mesh.boundary_faces)
-        {
-          const auto  &a    = mesh.nodes[face.nodes[0]];
-          const auto   edge = mesh.nodes[face.nodes[1]] - a, to = a - from;
-          const double cross = along[0] * edge[1] - along[1] * edge[0];
-          if (std::abs(cross) <= 1e-14 * edge.norm() * length)
-            continue;
-          const double t = (to[0] * edge[1] - to[1] * edge[0]) / cross;
-          const double s = (to[0] * along[1] - to[1] * along[0]) / cross;
-          if (t > 0. && s >= 0. && s <= 1.)
-            nearest = std::min(nearest, t);
-        }
-      if (nearest * length > length + more)
+      const double               length  = through.distance(from);
+      const dealii::Tensor<1, 2> along   = (through - from) / length;
+      const double               nearest = surface_ahead(mesh, from, along);
+      if (nearest > length + more)
         return std::nullopt;
       return from + nearest * along;
     }

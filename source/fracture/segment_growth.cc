@@ -94,6 +94,21 @@ namespace Perimorph::Fracture
   }
 
   double
+  surface_ahead(const Mesh::NodalMesh<2>   &mesh,
+                const dealii::Point<2>     &origin,
+                const dealii::Tensor<1, 2> &along)
+  {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const auto &face : mesh.boundary_faces)
+      nearest = std::min(nearest,
+                         distance_along_ray(origin,
+                                            along,
+                                            mesh.nodes[face.nodes[0]],
+                                            mesh.nodes[face.nodes[1]]));
+    return nearest;
+  }
+
+  double
   distance_ahead(const Mesh::NodalMesh<2> &mesh,
                  const Bonds::CrackSet<2> &cracks,
                  const CrackTip           &tip,
@@ -109,13 +124,7 @@ namespace Perimorph::Fracture
             std::min(nearest,
                      distance_along_ray(tip.frame.origin, along, c[0], c[1]));
         }
-    for (const auto &face : mesh.boundary_faces)
-      nearest = std::min(nearest,
-                         distance_along_ray(tip.frame.origin,
-                                            along,
-                                            mesh.nodes[face.nodes[0]],
-                                            mesh.nodes[face.nodes[1]]));
-    return nearest;
+    return std::min(nearest, surface_ahead(mesh, tip.frame.origin, along));
   }
 
   double

@@ -57,9 +57,7 @@ namespace Perimorph::Mesh
                                  ? region.horizon_length
                                  : region.horizon_ratio * h;
         const auto   length  = [&](const Parameters::Length &size) {
-          if (size.automatic)
-            return std::max(2. * h, horizon);
-          return size.in_horizons ? size.value * horizon : size.value;
+          return length_of(size, h, horizon);
         };
         double reach = length(refinement.distance);
         if (with_region)

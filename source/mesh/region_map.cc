@@ -119,9 +119,7 @@ namespace Perimorph::Mesh
             const auto   nearest = cloud.nearest(place).first;
             const double horizon = map.horizon[nearest];
             const auto   length  = [&](const Parameters::Length &size) {
-              if (size.automatic)
-                return std::max(2. * nodal.spacing[nearest], horizon);
-              return size.in_horizons ? size.value * horizon : size.value;
+              return length_of(size, nodal.spacing[nearest], horizon);
             };
             return std::make_pair(length(parameters.core_size),
                                   parameters.blending_function ==
@@ -157,6 +155,16 @@ namespace Perimorph::Mesh
         }
     }
   } // namespace
+
+  double
+  length_of(const Parameters::Length &size,
+            const double              spacing,
+            const double              horizon)
+  {
+    if (size.automatic)
+      return std::max(2. * spacing, horizon);
+    return size.in_horizons ? size.value * horizon : size.value;
+  }
 
   void
   RegionMap::set_alpha(const std::vector<double> &weights)

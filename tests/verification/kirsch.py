@@ -29,6 +29,7 @@ subsection Peridynamics
   set blending width     = 0.8
   set horizon ratio      = {ratio}
   set influence function = {influence}
+  set gradient support    = {support}
   # what the table was measured with
   set stabilization scale = shear modulus
 end
@@ -51,7 +52,8 @@ end
 """
 
 
-def write_case(folder, nt, mode, model="correspondence", ratio=2):
+def write_case(folder, nt, mode, model="correspondence", ratio=2,
+               support="horizon"):
     """Writes kirsch.prm and its mesh into a folder."""
     mesh(folder + "/kirsch.msh", nt)
     with open(folder + "/kirsch.prm", "w") as file:
@@ -60,6 +62,7 @@ def write_case(folder, nt, mode, model="correspondence", ratio=2):
                 mode=mode,
                 model=model,
                 ratio=ratio,
+                support=support,
                 influence="cubic spline" if ratio == 3 else "gaussian",
                 exact=EXACT))
 

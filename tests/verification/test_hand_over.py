@@ -108,6 +108,16 @@ def strip(study, model, m, mesh, change, length, events):
                 growth["solves_of_segments"] / horizons, 3.)
 
 
+STEEL = {
+    "Material/Young's modulus": "192e3",
+    "Material/Poisson's ratio": "0.33",
+    "Cracks/growth": "bonds",
+    "Cracks/growth control": "events",
+    "Cracks/hand over length": "3 horizons",
+    "Cracks/fracture energy": "110"
+}
+
+
 def main():
     study = Study(__doc__)
     for row in STRIPS:
@@ -117,16 +127,11 @@ def main():
     if study.part("plate with a hole, both sides in turn"):
         solution = solve(
             study, {
-                "Material/Young's modulus": "192e3",
-                "Material/Poisson's ratio": "0.33",
+                **STEEL,
                 "Material/state": "plane strain",
                 "Peridynamics/around": "point 5 0; point -5 0",
-                "Cracks/growth": "bonds",
-                "Cracks/growth control": "events",
                 "Cracks/criterion": "critical stretch",
                 "Cracks/critical stretch": "0.02",
-                "Cracks/hand over length": "3 horizons",
-                "Cracks/fracture energy": "110",
                 "Boundary conditions/displacement":
                 "top: y = 0.27541*t; bottom: y = -0.27541*t",
             }, HOLE)
@@ -145,14 +150,9 @@ def main():
     if study.part("inner crack with two tips"):
         solution = solve(
             study, {
-                "Material/Young's modulus": "192e3",
-                "Material/Poisson's ratio": "0.33",
+                **STEEL,
                 "Material/state": "plane stress",
                 "Peridynamics/around": "point 0 0",
-                "Cracks/growth": "bonds",
-                "Cracks/growth control": "events",
-                "Cracks/hand over length": "3 horizons",
-                "Cracks/fracture energy": "110",
                 "Cracks/maximum advances": "40",
                 "Boundary conditions/displacement":
                 "top: x = 0, y = 0; bottom: x = 0, y = 0",

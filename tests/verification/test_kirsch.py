@@ -11,7 +11,8 @@ import kirsch
 from verification import Study, rate
 
 CELLS_AROUND = (32, 64, 128)
-# mode, model, m: L2, energy error, K_t error in % (None: not in the table)
+ADJACENT = "adjacent cells"
+# mode, model or gradient support, m: L2, energy error, K_t error in % (None: not in the table)
 TABLE = [
     ("finite elements", "correspondence", 2., (4.65e-3, 1.20e-3, 3.05e-4),
      (1.44e-2, 3.88e-3, 1.00e-3), (-4.8, -1.4, -.4)),
@@ -21,6 +22,8 @@ TABLE = [
      (4.24e-2, 1.24e-2, 4.21e-3), (.6, -1.3, -.8)),
     ("coupled", "correspondence", 3., (9.31e-3, 2.56e-3, 6.89e-4),
      (9.78e-2, 2.76e-2, 8.89e-3), (3.8, -1.8, -2.1)),
+    ("coupled", ADJACENT, 2., (5.41e-3, 1.37e-3, 3.39e-4),
+     (1.63e-2, 5.29e-3, 1.85e-3), (-3.7, -1.5, -.7)),
     ("coupled", "bond based", 1.5, (5.4e-3, 1.41e-3, 3.6e-4),
      (1.61e-2, 4.41e-3, 1.16e-3), None),
     ("coupled", "bond based", 2., (4.6e-3, 1.18e-3, 2.9e-4),
@@ -51,7 +54,10 @@ def main():
         errors = []
         for k, cells in enumerate(CELLS_AROUND):
             folder = study.folder()
-            kirsch.write_case(folder, cells, mode, model, ratio)
+            adjacent = model == ADJACENT
+            kirsch.write_case(folder, cells, mode,
+                              "correspondence" if adjacent else model, ratio,
+                              ADJACENT if adjacent else "horizon")
             solution = study.solve(folder + "/kirsch.prm")
             what = "%s, nt %d: " % (name, cells)
             errors.append((solution["relative_displacement_error"],

@@ -48,7 +48,8 @@ namespace Perimorph::Application
     std::string model = "correspondence", around, core_size = "automatic",
                 blending_width = "automatic", blending_function = "cubic",
                 influence_function = "automatic", coupling = "consistent",
-                stabilization_scale = "automatic";
+                stabilization_scale = "automatic",
+                gradient_support    = "automatic";
     double horizon_ratio = 2., horizon = 0., stabilization = 1.;
 
     std::string pre_cracks,

@@ -6,6 +6,7 @@
 #include <perimorph/peridynamics/influence_function.h>
 
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace Perimorph::Coupling
@@ -16,6 +17,18 @@ namespace Perimorph::Coupling
     bending,      ///< the energy of bending fields is exact
     shear_modulus ///< kappa = gamma mu tr(K^-1) / dim
   };
+
+  /// What the gradient of a family is averaged over. The stabilisation always
+  /// reaches over the horizon.
+  enum class GradientSupport
+  {
+    adjacent_cells, ///< the cells at the particle
+    horizon         ///< the cells with their centroid in the horizon too
+  };
+
+  /// In the order of GradientSupport.
+  const std::vector<std::string> &
+  gradient_support_names();
 
   /// What is done for families that a crack cuts.
   enum class CrackRule
@@ -39,6 +52,7 @@ namespace Perimorph::Coupling
       Peridynamics::InfluenceFunction::gaussian;
     double             gamma      = 1.; ///< dimensionless stabilisation
     StabilizationScale scale      = StabilizationScale::bending;
+    GradientSupport    support    = GradientSupport::horizon;
     CrackRule          crack_rule = CrackRule::consistent;
     /// Of each material.
     std::vector<ElasticConstants> constants;
@@ -63,6 +77,10 @@ namespace Perimorph::Coupling
   /// quadrature point, of the finite-element gradients in the horizon. Any
   /// affine displacement then gives exactly the finite-element forces, on any
   /// mesh and for any alpha (numerics-explicit.md, section 2).
+  ///
+  /// Averages over the horizon reach the nodes of all cells there. Those over
+  /// the cells at a particle (the ring form) fall off over 1.5 spacings; bonds
+  /// to other nodes within the horizon have no gradient weight.
   ///
   /// Stabilisation by bending: the average over a family of the energy of a
   /// bending field is the energy of its average gradient plus that of its

@@ -40,13 +40,23 @@ namespace Perimorph::Coupling
     /// None: see influence_function_of().
     std::optional<Peridynamics::InfluenceFunction> influence = std::nullopt;
     double                                         gamma     = 1.;
-    /// None: bending in 2D; in 3D, where the bending fields are met in the
-    /// least-squares sense only, the shear modulus.
-    std::optional<StabilizationScale> scale      = std::nullopt;
+    /// None: bending, but in 3D for gradients over the horizon, where it meets
+    /// the bending fields too loosely, the shear modulus.
+    std::optional<StabilizationScale> scale   = std::nullopt;
+    GradientSupport                   support = GradientSupport::adjacent_cells;
     CrackRule                         crack_rule = CrackRule::consistent;
     /// Whether SharedParts::intact is kept.
     bool bonds_may_break = false;
   };
+
+  /// Whether gradients of families reach over the horizon: as chosen, and the
+  /// classical ones.
+  inline bool
+  has_wide_gradients(const CouplingParameters &parameters)
+  {
+    return parameters.support == GradientSupport::horizon ||
+           parameters.scheme != Scheme::consistent;
+  }
 
   /// The influence function as given. Otherwise gaussian, or in 2D, above a
   /// mean horizon ratio of 2.5, cubic spline (numerics.md, D4): wide families

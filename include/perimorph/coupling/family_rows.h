@@ -51,6 +51,35 @@ namespace Perimorph::Coupling
     std::vector<unsigned int>           nodes;
   };
 
+  /// Nodes of the family of a particle, its own included, in rising order.
+  /// @param cells           its support
+  /// @param within_horizon  of the support only nodes within the horizon, and
+  ///        those of the cells at the particle
+  template <int dim, typename Cells>
+  void
+  find_family_nodes(const Mesh::NodalMesh<dim> &mesh,
+                    const unsigned int          node,
+                    const Cells                &cells,
+                    const double                horizon,
+                    const bool                  within_horizon,
+                    std::vector<unsigned int>  &nodes)
+  {
+    const double reach = horizon * (1. + Bonds::horizon_slack);
+    nodes.clear();
+    for (const unsigned int c : cells)
+      {
+        const auto &corners = mesh.cells[c];
+        const bool  all =
+          !within_horizon ||
+          std::find(corners.begin(), corners.end(), node) != corners.end();
+        for (const unsigned int n : corners)
+          if (all || mesh.nodes[n].distance(mesh.nodes[node]) <= reach)
+            nodes.push_back(n);
+      }
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  }
+
   /// Weight of a bond before it is scaled by the stabilisation: volume times
   /// influence, which falls no further than Peridynamics::smallest_influence.
   template <int dim>

@@ -109,7 +109,14 @@ namespace Perimorph::Fracture
             const Surface<dim>         &surface,
             const dealii::Point<dim>   &point);
 
-  /// Distance to the surface of the body (faces in space as two triangles).
+  /// Distance to a face (in space as two triangles).
+  template <int dim>
+  double
+  face_distance(const Mesh::NodalMesh<dim>    &mesh,
+                const Mesh::BoundaryFace<dim> &face,
+                const dealii::Point<dim>      &point);
+
+  /// Distance to the surface of the body.
   template <int dim>
   double
   boundary_distance(const Mesh::NodalMesh<dim> &mesh,

@@ -39,6 +39,13 @@ namespace Perimorph::Fracture
                 double          length,
                 unsigned int    step);
 
+  /// Distance along a ray to the surface; infinite if it stays inside.
+  /// @param along  unit vector
+  double
+  surface_ahead(const Mesh::NodalMesh<2>   &mesh,
+                const dealii::Point<2>     &origin,
+                const dealii::Tensor<1, 2> &along);
+
   /// Distance from a tip, in a direction, to the surface or another crack;
   /// infinite without.
   double

@@ -47,6 +47,11 @@ namespace Perimorph::Mesh
     bool             may_fill_body = false; ///< a core that has grown may
   };
 
+  /// A size of the region where nodes have this spacing and horizon;
+  /// automatic: the horizon, at least two spacings.
+  double
+  length_of(const Parameters::Length &size, double spacing, double horizon);
+
   /// Blending weight and horizon of every node, identical on all ranks.
   struct RegionMap
   {

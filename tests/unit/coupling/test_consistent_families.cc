@@ -96,24 +96,27 @@ namespace Perimorph::Coupling
     {
       FamilyParameters parameters;
       parameters.constants = {{1., 2.5, 0.25}};
-      for (const auto function :
-           {BlendingFunction::cubic, BlendingFunction::splice})
-        for (const auto influence :
-             {Peridynamics::InfluenceFunction::gaussian,
-              Peridynamics::InfluenceFunction::constant,
-              Peridynamics::InfluenceFunction::cubic_spline})
-          {
-            parameters.influence = influence;
-            const auto alpha     = ball_alpha(mesh, function);
-            const auto set       = consistent_families(mesh,
-                                                 alpha,
-                                                 horizons(mesh, ratio),
-                                                 parameters);
-            ASSERT_GT(set.n_particles(), 0u);
-            const auto errors = consistency(mesh, alpha, set);
-            EXPECT_LT(errors.target, 1e-13);
-            EXPECT_LT(errors.affine, 1e-13);
-          }
+      for (const auto support :
+           {GradientSupport::adjacent_cells, GradientSupport::horizon})
+        for (const auto function :
+             {BlendingFunction::cubic, BlendingFunction::splice})
+          for (const auto influence :
+               {Peridynamics::InfluenceFunction::gaussian,
+                Peridynamics::InfluenceFunction::constant,
+                Peridynamics::InfluenceFunction::cubic_spline})
+            {
+              parameters.support   = support;
+              parameters.influence = influence;
+              const auto alpha     = ball_alpha(mesh, function);
+              const auto set       = consistent_families(mesh,
+                                                   alpha,
+                                                   horizons(mesh, ratio),
+                                                   parameters);
+              ASSERT_GT(set.n_particles(), 0u);
+              const auto errors = consistency(mesh, alpha, set);
+              EXPECT_LT(errors.target, 1e-13);
+              EXPECT_LT(errors.affine, 1e-13);
+            }
     }
   } // namespace
 
@@ -164,25 +167,33 @@ namespace Perimorph::Coupling
     const std::vector<std::array<std::size_t, 2>> plane  = {{{8, 8}},
                                                             {{20, 12}},
                                                             {{44, 28}}};
+    const std::vector<std::array<std::size_t, 2>> space  = {{{26, 26}},
+                                                            {{80, 32}},
+                                                            {{0, 122}}};
     const std::array<double, 3>                   ratios = {{1.5, 2., 3.}};
     for (unsigned int k = 0; k < 3; ++k)
       {
-        const auto horizon = horizons(mesh2, ratios[k]);
+        const auto horizon2 = horizons(mesh2, ratios[k]);
+        const auto horizon3 = horizons(mesh3, ratios[k]);
+        parameters.support  = GradientSupport::horizon;
         EXPECT_EQ(
-          largest(consistent_families(mesh2, ones2, horizon, parameters)),
+          largest(consistent_families(mesh2, ones2, horizon2, parameters)),
           plane[k][0]);
+        if (space[k][0] > 0)
+          EXPECT_EQ(
+            largest(consistent_families(mesh3, ones3, horizon3, parameters)),
+            space[k][0]);
+        parameters.support = GradientSupport::adjacent_cells;
         EXPECT_EQ(
-          largest(classical_families(mesh2, ones2, horizon, parameters)),
+          largest(consistent_families(mesh2, ones2, horizon2, parameters)),
+          plane[k][1]);
+        EXPECT_EQ(
+          largest(consistent_families(mesh3, ones3, horizon3, parameters)),
+          space[k][1]);
+        EXPECT_EQ(
+          largest(classical_families(mesh2, ones2, horizon2, parameters)),
           plane[k][1]);
       }
-    EXPECT_EQ(
-      largest(
-        consistent_families(mesh3, ones3, horizons(mesh3, 1.5), parameters)),
-      26u);
-    EXPECT_EQ(
-      largest(
-        consistent_families(mesh3, ones3, horizons(mesh3, 2.), parameters)),
-      80u);
   }
 
   TEST(ConsistentFamilies, shape_tensor_of_a_lattice)
