@@ -72,6 +72,7 @@ namespace Perimorph::Coupling
           }
         const Peridynamics::Family<dim> family{
           static_cast<unsigned int>(n),
+          static_cast<unsigned int>(n),
           xi.data(),
           families.gradient_weight.data() + begin,
           families.bond_weight.data() + begin,

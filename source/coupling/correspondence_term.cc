@@ -2,6 +2,7 @@
 #include <perimorph/materials/extrapolated_stress.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace Perimorph::Coupling
 {
@@ -13,6 +14,7 @@ namespace Perimorph::Coupling
     : families(std::move(families_))
     , materials(materials)
   {
+    sort_bonds();
     for (auto &node : families.node)
       node = partition.local(node);
     for (auto &node : families.neighbor)
@@ -28,6 +30,35 @@ namespace Perimorph::Coupling
              ++b)
           xi.push_back(partition.position(families.neighbor[b]) -
                        partition.position(families.node[p]));
+      }
+  }
+
+  template <int dim>
+  void
+  CorrespondenceTerm<dim>::sort_bonds()
+  {
+    std::vector<std::size_t> order;
+    const auto reorder = [&](auto &list, const std::size_t first) {
+      const auto row =
+        std::vector(list.begin() + first, list.begin() + first + order.size());
+      for (std::size_t k = 0; k < order.size(); ++k)
+        list[first + k] = row[order[k] - first];
+    };
+    for (std::size_t p = 0; p < families.n_particles(); ++p)
+      {
+        const std::size_t first = families.offsets[p];
+        order.resize(families.offsets[p + 1] - first);
+        std::iota(order.begin(), order.end(), first);
+        const auto end =
+          std::stable_partition(order.begin(), order.end(), [&](const auto b) {
+            return families.gradient_weight[b].norm_square() > 0.;
+          });
+        n_gradient_bonds.push_back(end - order.begin());
+        if (std::is_sorted(order.begin(), order.end()))
+          continue;
+        reorder(families.neighbor, first);
+        reorder(families.gradient_weight, first);
+        reorder(families.bond_weight, first);
       }
   }
 
@@ -66,6 +97,7 @@ namespace Perimorph::Coupling
   {
     const std::size_t first = families.offsets[particle];
     return {static_cast<unsigned int>(families.offsets[particle + 1] - first),
+            n_gradient_bonds[particle],
             xi.data() + first,
             families.gradient_weight.data() + first,
             families.bond_weight.data() + first,

@@ -10,7 +10,7 @@ namespace Perimorph::Peridynamics
                         const dealii::Tensor<1, dim> *eta)
   {
     dealii::Tensor<2, dim> H;
-    for (unsigned int j = 0; j < family.n_bonds; ++j)
+    for (unsigned int j = 0; j < family.n_gradient_bonds; ++j)
       for (int a = 0; a < dim; ++a)
         for (int b = 0; b < dim; ++b)
           H[a][b] += eta[j][a] * family.gradient_weight[j][b];
@@ -39,20 +39,22 @@ namespace Perimorph::Peridynamics
   {
     const double           kappa  = family.stabilization;
     dealii::Tensor<2, dim> stress = first_piola_kirchhoff;
-    if (kappa == 0.)
-      {
-        for (unsigned int j = 0; j < family.n_bonds; ++j)
-          forces[j] = stress * family.gradient_weight[j];
-        return;
-      }
     for (unsigned int j = 0; j < family.n_bonds; ++j)
       {
-        forces[j] = kappa * family.bond_weight[j] * (eta[j] - H * family.xi[j]);
+        const auto   xi     = family.xi[j];
+        const double spring = kappa * family.bond_weight[j];
         for (int a = 0; a < dim; ++a)
-          for (int b = 0; b < dim; ++b)
-            stress[a][b] -= forces[j][a] * family.xi[j][b];
+          {
+            double z = eta[j][a];
+            for (int b = 0; b < dim; ++b)
+              z -= H[a][b] * xi[b];
+            const double force = spring * z;
+            forces[j][a]       = force;
+            for (int b = 0; b < dim; ++b)
+              stress[a][b] -= force * xi[b];
+          }
       }
-    for (unsigned int j = 0; j < family.n_bonds; ++j)
+    for (unsigned int j = 0; j < family.n_gradient_bonds; ++j)
       forces[j] += stress * family.gradient_weight[j];
   }
 

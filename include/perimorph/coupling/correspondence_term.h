@@ -73,9 +73,14 @@ namespace Perimorph::Coupling
             const dealii::Tensor<1, dim> *forces,
             double                       *vector) const;
 
-    Peridynamics::FamilySet<dim>        families; ///< local nodes
-    std::vector<dealii::Tensor<1, dim>> xi;       ///< one per bond
-    std::vector<dealii::Point<dim>>     position; ///< one per particle
+    /// Moves the bonds of each family without a gradient weight to its end.
+    void
+    sort_bonds();
+
+    Peridynamics::FamilySet<dim>        families;         ///< local nodes
+    std::vector<unsigned int>           n_gradient_bonds; ///< per particle
+    std::vector<dealii::Tensor<1, dim>> xi;               ///< one per bond
+    std::vector<dealii::Point<dim>>     position;         ///< one per particle
     const MaterialList                 &materials;
     unsigned int                        largest_family = 0;
     /// Per particle; empty: none.

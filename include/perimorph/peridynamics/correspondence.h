@@ -14,10 +14,11 @@ namespace Perimorph::Peridynamics
   struct Family
   {
     unsigned int                  n_bonds;
-    const dealii::Tensor<1, dim> *xi;              ///< X_j - X_i
-    const dealii::Tensor<1, dim> *gradient_weight; ///< g_j
-    const double                 *bond_weight;     ///< w_j
-    double                        stabilization;   ///< kappa
+    unsigned int                  n_gradient_bonds; ///< g_j = 0 behind them
+    const dealii::Tensor<1, dim> *xi;               ///< X_j - X_i
+    const dealii::Tensor<1, dim> *gradient_weight;  ///< g_j
+    const double                 *bond_weight;      ///< w_j
+    double                        stabilization;    ///< kappa
   };
 
   /// H = sum_j eta_j (x) g_j, eta_j = u_j - u_i.
