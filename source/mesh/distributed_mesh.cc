@@ -2,11 +2,9 @@
 #include <perimorph/base/name_help.h>
 #include <perimorph/mesh/distributed_mesh.h>
 
-#include <deal.II/base/index_set.h>
-#include <deal.II/distributed/shared_tria.h>
-#include <deal.II/dofs/dof_handler.h>
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/grid/grid_tools.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/sparsity_pattern.h>
+#include <deal.II/lac/sparsity_tools.h>
 
 #include <algorithm>
 #include <numeric>
@@ -14,139 +12,155 @@
 
 namespace Perimorph::Mesh
 {
+  namespace
+  {
+    /// Face 2 d + side of a cell has the vertices whose bit d equals side; they
+    /// come out in lexicographic order of the remaining directions.
+    template <int dim>
+    typename GmshMesh<dim>::Face
+    corners_of_face(const std::array<unsigned int, (1u << dim)> &cell,
+                    const unsigned int                           face)
+    {
+      typename GmshMesh<dim>::Face corners;
+      unsigned int                 k = 0;
+      for (unsigned int v = 0; v < cell.size(); ++v)
+        if (((v >> (face / 2)) & 1u) == face % 2)
+          corners[k++] = cell[v];
+      return corners;
+    }
+
+    template <typename Face>
+    Face
+    sorted(Face face)
+    {
+      std::sort(face.begin(), face.end());
+      return face;
+    }
+
+    /// Ranks of the cells: parts of the graph of cells that share a face.
+    template <typename CellFaces>
+    std::vector<unsigned int>
+    partition(const unsigned int n_cells,
+              const CellFaces   &faces,
+              const unsigned int n_ranks)
+    {
+      std::vector<unsigned int> rank(n_cells, 0);
+      if (n_ranks == 1)
+        return rank;
+      dealii::DynamicSparsityPattern graph(n_cells, n_cells);
+      for (std::size_t k = 1; k < faces.size(); ++k)
+        if (faces[k - 1].points == faces[k].points)
+          {
+            graph.add(faces[k - 1].cell, faces[k].cell);
+            graph.add(faces[k].cell, faces[k - 1].cell);
+          }
+      for (unsigned int c = 0; c < n_cells; ++c)
+        graph.add(c, c);
+      dealii::SparsityPattern compressed;
+      compressed.copy_from(graph);
+      dealii::SparsityTools::partition(compressed, n_ranks, rank);
+      return rank;
+    }
+  } // namespace
+
   template <int dim>
   DistributedMesh<dim>::DistributedMesh(const GmshMesh<dim> &gmsh_mesh,
                                         const MPI_Comm       communicator)
     : mpi_communicator(communicator)
     , volumes(gmsh_mesh.volumes)
   {
-    number_nodes(gmsh_mesh);
+    std::vector<CellFace> faces;
+    faces.reserve(gmsh_mesh.cells.size() * 2 * dim);
+    for (unsigned int c = 0; c < gmsh_mesh.cells.size(); ++c)
+      for (unsigned int f = 0; f < 2 * dim; ++f)
+        faces.push_back(
+          {sorted(corners_of_face<dim>(gmsh_mesh.cells[c], f)), c, f});
+    std::sort(
+      faces.begin(),
+      faces.end(),
+      [](const CellFace &a, const CellFace &b) { return a.points < b.points; });
+    number_nodes(gmsh_mesh, faces);
     nodal_mesh.compute_derived();
-    find_boundary(gmsh_mesh);
+    find_boundary(gmsh_mesh, faces);
     find_pieces();
   }
 
   template <int dim>
-  DistributedMesh<dim>::~DistributedMesh() = default;
-
-  template <int dim>
   void
-  DistributedMesh<dim>::number_nodes(const GmshMesh<dim> &gmsh_mesh)
+  DistributedMesh<dim>::number_nodes(const GmshMesh<dim>         &gmsh_mesh,
+                                     const std::vector<CellFace> &faces)
   {
-    std::vector<dealii::CellData<dim>> cells(gmsh_mesh.cells.size());
+    const unsigned int n_ranks =
+      dealii::Utilities::MPI::n_mpi_processes(mpi_communicator);
+    const auto &cells     = gmsh_mesh.cells;
+    nodal_mesh.cell_owner = partition(cells.size(), faces, n_ranks);
+    nodal_mesh.cell_material.assign(cells.size(), 0);
+
+    // A node belongs to the first of the ranks around it. The nodes of a rank
+    // are numbered as its cells meet them.
+    std::vector<unsigned int> owner(gmsh_mesh.points.size(), n_ranks);
     for (unsigned int c = 0; c < cells.size(); ++c)
-      cells[c].vertices.assign(gmsh_mesh.cells[c].begin(),
-                               gmsh_mesh.cells[c].end());
-    dealii::GridTools::consistently_order_cells(cells);
-
-    using Shared = dealii::parallel::shared::Triangulation<dim>;
-    Shared triangulation(mpi_communicator,
-                         dealii::Triangulation<dim>::none,
-                         false,
-                         Shared::partition_metis);
-    triangulation.create_triangulation(gmsh_mesh.points,
-                                       cells,
-                                       dealii::SubCellData());
-
-    const dealii::FE_Q<dim> element(1);
-    dealii::DoFHandler<dim> dof_handler(triangulation);
-    dof_handler.distribute_dofs(element);
-
-    node_of_point.resize(gmsh_mesh.points.size());
+      for (const unsigned int point : cells[c])
+        owner[point] = std::min(owner[point], nodal_mesh.cell_owner[c]);
+    std::vector<unsigned int> begin(n_ranks + 2, 0);
+    for (const unsigned int rank : owner)
+      ++begin[rank + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    constexpr unsigned int none = dealii::numbers::invalid_unsigned_int;
+    auto                   next = begin;
+    node_of_point.assign(gmsh_mesh.points.size(), none);
     nodal_mesh.nodes.resize(gmsh_mesh.points.size());
     nodal_mesh.cells.resize(cells.size());
-    nodal_mesh.cell_owner.resize(cells.size());
-    nodal_mesh.cell_material.assign(cells.size(), 0);
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      {
-        const unsigned int c     = cell->active_cell_index();
-        nodal_mesh.cell_owner[c] = cell->subdomain_id();
-        for (unsigned int v = 0; v < NodalMesh<dim>::nodes_per_cell; ++v)
-          {
-            const unsigned int node              = cell->vertex_dof_index(v, 0);
-            nodal_mesh.cells[c][v]               = node;
-            nodal_mesh.nodes[node]               = cell->vertex(v);
-            node_of_point[cell->vertex_index(v)] = node;
-          }
-      }
+    for (unsigned int c = 0; c < cells.size(); ++c)
+      for (unsigned int v = 0; v < NodalMesh<dim>::nodes_per_cell; ++v)
+        {
+          const unsigned int point = cells[c][v];
+          auto              &node  = node_of_point[point];
+          if (node == none)
+            {
+              node                   = next[owner[point]]++;
+              nodal_mesh.nodes[node] = gmsh_mesh.points[point];
+            }
+          nodal_mesh.cells[c][v] = node;
+        }
     for (const auto &[point, parents] : gmsh_mesh.hanging)
       for (const auto &[parent, weight] : parents)
         nodal_mesh.hanging[node_of_point[point]].emplace_back(
           node_of_point[parent],
           weight);
-    const unsigned int rank =
+    nodal_mesh.rank =
       dealii::Utilities::MPI::this_mpi_process(mpi_communicator);
-    const auto owned_counts = dealii::Utilities::MPI::all_gather(
-      mpi_communicator,
-      dof_handler.locally_owned_dofs().n_elements());
-    nodal_mesh.rank = rank;
-    nodal_mesh.owned_begin =
-      std::accumulate(owned_counts.begin(), owned_counts.begin() + rank, 0u);
-    nodal_mesh.owned_end = nodal_mesh.owned_begin + owned_counts[rank];
+    nodal_mesh.owned_begin = begin[nodal_mesh.rank];
+    nodal_mesh.owned_end   = begin[nodal_mesh.rank + 1];
   }
 
   template <int dim>
   void
-  DistributedMesh<dim>::find_boundary(const GmshMesh<dim> &gmsh_mesh)
+  DistributedMesh<dim>::find_boundary(const GmshMesh<dim>         &gmsh_mesh,
+                                      const std::vector<CellFace> &faces)
   {
-    using Face                          = typename GmshMesh<dim>::Face;
-    constexpr unsigned int n_face_nodes = 1u << (dim - 1);
-    struct CellFace
-    {
-      Face         sorted;
-      unsigned int cell, face;
-    };
-    // Face 2 d + side of a cell has the vertices whose bit d equals side; they
-    // come out in lexicographic order of the remaining directions.
-    const auto nodes_of = [&](const unsigned int c, const unsigned int f) {
-      Face         nodes;
-      unsigned int k = 0;
-      for (unsigned int v = 0; v < NodalMesh<dim>::nodes_per_cell; ++v)
-        if (((v >> (f / 2)) & 1u) == f % 2)
-          nodes[k++] = nodal_mesh.cells[c][v];
-      return nodes;
-    };
-    std::vector<CellFace> faces;
-    faces.reserve(nodal_mesh.n_cells() * 2 * dim);
-    for (unsigned int c = 0; c < nodal_mesh.n_cells(); ++c)
-      for (unsigned int f = 0; f < 2 * dim; ++f)
-        {
-          auto nodes = nodes_of(c, f);
-          std::sort(nodes.begin(), nodes.end());
-          faces.push_back({nodes, c, f});
-        }
-    const auto before = [](const CellFace &a, const CellFace &b) {
-      return a.sorted < b.sorted;
-    };
-    std::sort(faces.begin(), faces.end(), before);
-
+    using Face = typename GmshMesh<dim>::Face;
     std::set<Face> hanging;
-    const auto     sorted_nodes = [this](Face face) {
-      for (auto &point : face)
-        point = node_of_point[point];
-      std::sort(face.begin(), face.end());
-      return face;
-    };
     for (const auto &face : gmsh_mesh.hanging_faces)
-      hanging.insert(sorted_nodes(face));
+      hanging.insert(sorted(face));
 
-    // Surface faces occur once. Index by the sorted nodes to find groups.
+    // Surface faces occur once. Index by the sorted points to find groups.
     std::map<Face, unsigned int> surface;
     for (std::size_t k = 0; k < faces.size(); ++k)
       {
+        const auto &[points, cell, face] = faces[k];
         const bool shared =
-          (k > 0 && faces[k - 1].sorted == faces[k].sorted) ||
-          (k + 1 < faces.size() && faces[k + 1].sorted == faces[k].sorted);
-        if (shared || hanging.count(faces[k].sorted) > 0)
+          (k > 0 && faces[k - 1].points == points) ||
+          (k + 1 < faces.size() && faces[k + 1].points == points);
+        if (shared || hanging.count(points) > 0)
           continue;
-        surface[faces[k].sorted] = nodal_mesh.boundary_faces.size();
+        surface[points] = nodal_mesh.boundary_faces.size();
         nodal_mesh.boundary_faces.push_back(
-          {faces[k].cell,
-           faces[k].face,
+          {cell,
+           face,
            dealii::numbers::invalid_unsigned_int,
-           nodes_of(faces[k].cell, faces[k].face)});
+           corners_of_face<dim>(nodal_mesh.cells[cell], face)});
       }
-    static_assert(n_face_nodes == std::tuple_size<Face>::value, "");
 
     unsigned int id = 0;
     for (const auto &group : gmsh_mesh.surfaces)
@@ -154,7 +168,7 @@ namespace Perimorph::Mesh
         auto &list = boundaries[group.first];
         for (const Face &face : group.second)
           {
-            const auto found = surface.find(sorted_nodes(face));
+            const auto found = surface.find(sorted(face));
             if (found == surface.end())
               continue; // interior surface: an interface or a crack
             list.push_back(found->second);

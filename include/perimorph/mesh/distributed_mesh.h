@@ -12,18 +12,17 @@
 
 namespace Perimorph::Mesh
 {
-  /// The mesh of a run: the partition and node numbering made by deal.II, the
-  /// plain arrays every other room reads, and the named groups.
+  /// The mesh of a run: its partition by METIS, the node numbering, the plain
+  /// arrays every other room reads, and the named groups.
   ///
-  /// Every rank knows the whole mesh (design.md section 5); the choice of a
-  /// shared triangulation is hidden here.
+  /// Every rank knows the whole mesh (design.md section 5); that is hidden
+  /// here.
   template <int dim>
   class DistributedMesh
   {
   public:
     /// Distributes the cells over the ranks and numbers the nodes.
     DistributedMesh(const GmshMesh<dim> &gmsh_mesh, MPI_Comm communicator);
-    ~DistributedMesh();
 
     const NodalMesh<dim> &
     nodal() const
@@ -81,10 +80,19 @@ namespace Perimorph::Mesh
     }
 
   private:
+    struct CellFace
+    {
+      typename GmshMesh<dim>::Face points; ///< in rising order
+      unsigned int                 cell, face;
+    };
+
+    /// @param faces  of all cells, sorted by their points
     void
-    number_nodes(const GmshMesh<dim> &gmsh_mesh);
+    number_nodes(const GmshMesh<dim>         &gmsh_mesh,
+                 const std::vector<CellFace> &faces);
     void
-    find_boundary(const GmshMesh<dim> &gmsh_mesh);
+    find_boundary(const GmshMesh<dim>         &gmsh_mesh,
+                  const std::vector<CellFace> &faces);
     void
     find_pieces();
 

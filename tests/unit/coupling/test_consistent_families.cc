@@ -180,9 +180,11 @@ namespace Perimorph::Coupling
           largest(consistent_families(mesh2, ones2, horizon2, parameters)),
           plane[k][0]);
         if (space[k][0] > 0)
-          EXPECT_EQ(
-            largest(consistent_families(mesh3, ones3, horizon3, parameters)),
-            space[k][0]);
+          {
+            EXPECT_EQ(
+              largest(consistent_families(mesh3, ones3, horizon3, parameters)),
+              space[k][0]);
+          }
         parameters.support = GradientSupport::adjacent_cells;
         EXPECT_EQ(
           largest(consistent_families(mesh2, ones2, horizon2, parameters)),

@@ -452,7 +452,9 @@ namespace Perimorph::Mesh
         }
       // The corners are as they were, or as fine as they may be.
       if (grading > 10.)
-        EXPECT_GT(largest, 0.1);
+        {
+          EXPECT_GT(largest, 0.1);
+        }
       for (unsigned int c = 0; c < nodal.n_cells(); ++c)
         {
           double edges = 0.;

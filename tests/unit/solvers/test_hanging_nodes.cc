@@ -152,7 +152,9 @@ namespace Perimorph::Solvers
             EXPECT_LT(outcome.discontinuity, 1e-13);
             EXPECT_LT(outcome.ghost_force, 1e-10);
             if (solver == LinearSolverKind::iterative)
-              EXPECT_EQ(outcome.matrix_free, !families_hang);
+              {
+                EXPECT_EQ(outcome.matrix_free, !families_hang);
+              }
           }
     }
   } // namespace
