@@ -196,16 +196,14 @@ namespace Perimorph::Application
     if (texts.influence_function != "automatic")
       coupling.influence =
         Peridynamics::influence_function_from_name(texts.influence_function);
-    // The rules that break bonds were found for families whose stress is
-    // nonlocal over the horizon (doc/theory, 3).
-    coupling.support =
-      texts.gradient_support != "automatic"
-        ? from_name<Coupling::GradientSupport>(
-            texts.gradient_support,
-            Coupling::gradient_support_names())
-      : texts.pre_cracks.empty() && texts.crack_growth == "none"
-        ? Coupling::GradientSupport::adjacent_cells
-        : Coupling::GradientSupport::horizon;
+    if (texts.gradient_support != "automatic")
+      coupling.support = from_name<Coupling::GradientSupport>(
+        texts.gradient_support,
+        Coupling::gradient_support_names());
+    else if (!texts.pre_cracks.empty() || texts.crack_growth != "none")
+      // The rules that break bonds were found for families whose stress is
+      // nonlocal over the horizon (doc/theory, 3).
+      coupling.support = Coupling::GradientSupport::horizon;
     coupling.gamma = texts.stabilization;
     if (texts.stabilization_scale != "automatic")
       coupling.scale =

@@ -45,6 +45,18 @@ namespace Perimorph::Bonds
   }
 
   template <int dim>
+  void
+  find_adjacent_cells(const Mesh::NodalMesh<dim> &mesh,
+                      const ParticleSeed         &particle,
+                      std::vector<unsigned int>  &cells)
+  {
+    cells.clear();
+    for (const unsigned int c : mesh.node_cells.row(particle.node))
+      if (mesh.cell_material[c] == particle.material)
+        cells.push_back(c);
+  }
+
+  template <int dim>
   Base::Csr<unsigned int>
   find_supports(const Mesh::NodalMesh<dim>      &mesh,
                 const std::vector<ParticleSeed> &particles,
@@ -59,22 +71,15 @@ namespace Perimorph::Bonds
 
     for (const auto &particle : particles)
       {
-        const auto in_material = [&](const unsigned int c) {
-          return mesh.cell_material[c] == particle.material;
-        };
         centroids.within(mesh.nodes[particle.node],
                          horizon[particle.node] * (1. + horizon_slack),
                          near);
         for (const unsigned int c : near)
-          if (in_material(c))
+          if (mesh.cell_material[c] == particle.material)
             state[c] = inside;
-        reached.clear();
-        for (const unsigned int c : mesh.node_cells.row(particle.node))
-          if (in_material(c))
-            {
-              state[c] = done;
-              reached.push_back(c);
-            }
+        find_adjacent_cells(mesh, particle, reached);
+        for (const unsigned int c : reached)
+          state[c] = done;
         for (std::size_t k = 0; k < reached.size(); ++k)
           for (const unsigned int n : mesh.cells[reached[k]])
             for (const unsigned int c : mesh.node_cells.row(n))
@@ -104,6 +109,14 @@ namespace Perimorph::Bonds
   relevant_particles<3>(const Mesh::NodalMesh<3> &,
                         const std::vector<double> &,
                         const std::vector<double> &);
+  template void
+  find_adjacent_cells<2>(const Mesh::NodalMesh<2> &,
+                         const ParticleSeed &,
+                         std::vector<unsigned int> &);
+  template void
+  find_adjacent_cells<3>(const Mesh::NodalMesh<3> &,
+                         const ParticleSeed &,
+                         std::vector<unsigned int> &);
   template Base::Csr<unsigned int>
   find_supports<2>(const Mesh::NodalMesh<2> &,
                    const std::vector<ParticleSeed> &,

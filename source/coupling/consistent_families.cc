@@ -4,7 +4,6 @@
 #include <perimorph/coupling/family_rows.h>
 #include <perimorph/mesh/cell_geometry.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -154,29 +153,6 @@ namespace Perimorph::Coupling
       std::vector<std::array<double, n_points>> shares;
     };
 
-    /// The cells of the supports that are at the particle.
-    template <int dim>
-    Base::Csr<unsigned int>
-    cells_at(const Mesh::NodalMesh<dim>             &mesh,
-             const std::vector<Bonds::ParticleSeed> &particles,
-             const Base::Csr<unsigned int>          &supports)
-    {
-      Base::Csr<unsigned int> cells;
-      for (std::size_t p = 0; p < particles.size(); ++p)
-        {
-          for (const unsigned int c : supports.row(p))
-            {
-              const auto &corners = mesh.cells[c];
-              if (std::find(corners.begin(),
-                            corners.end(),
-                            particles[p].node) != corners.end())
-                cells.entries.push_back(c);
-            }
-          cells.close_row();
-        }
-      return cells;
-    }
-
     /// Node and gradient weight, divided by the volume.
     template <int dim>
     std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>>
@@ -223,7 +199,15 @@ namespace Perimorph::Coupling
     std::vector<double>     radius = horizon;
     if (adjacent)
       {
-        adjacent_cells = cells_at(mesh, particles, supports);
+        std::vector<unsigned int> cells;
+        for (const auto &particle : particles)
+          {
+            Bonds::find_adjacent_cells(mesh, particle, cells);
+            adjacent_cells.entries.insert(adjacent_cells.entries.end(),
+                                          cells.begin(),
+                                          cells.end());
+            adjacent_cells.close_row();
+          }
         for (unsigned int n = 0; n < mesh.n_nodes(); ++n)
           radius[n] = adjacent_radius * mesh.spacing[n];
       }
@@ -272,7 +256,6 @@ namespace Perimorph::Coupling
                               node,
                               supports.row(p),
                               horizon[node],
-                              true,
                               nodes);
             for (const unsigned int n : nodes)
               scratch.at(n);
@@ -328,7 +311,7 @@ namespace Perimorph::Coupling
     const auto supports  = Bonds::find_supports(mesh, particles, horizon);
 
     Peridynamics::FamilySet<dim> set;
-    std::vector<unsigned int>    nodes;
+    std::vector<unsigned int>    cells, nodes;
     for (std::size_t p = 0; p < particles.size(); ++p)
       {
         const auto        &particle = particles[p];
@@ -336,22 +319,17 @@ namespace Perimorph::Coupling
         if (!mesh.owns_node(node))
           continue;
         double volume = 0.;
-        for (const unsigned int c : mesh.node_cells.row(node))
-          if (mesh.cell_material[c] == particle.material)
-            {
-              const Mesh::CellGeometry<dim> geometry(mesh.corners(c));
-              for (unsigned int v = 0; v < geometry.n_nodes; ++v)
-                if (mesh.cells[c][v] == node)
-                  for (unsigned int q = 0; q < geometry.n_points; ++q)
-                    volume += geometry.jxw[q] * geometry.shape_value(q, v);
-            }
+        Bonds::find_adjacent_cells(mesh, particle, cells);
+        for (const unsigned int c : cells)
+          {
+            const Mesh::CellGeometry<dim> geometry(mesh.corners(c));
+            for (unsigned int v = 0; v < geometry.n_nodes; ++v)
+              if (mesh.cells[c][v] == node)
+                for (unsigned int q = 0; q < geometry.n_points; ++q)
+                  volume += geometry.jxw[q] * geometry.shape_value(q, v);
+          }
         // Reached over cells within the horizon: not across a gap.
-        find_family_nodes(mesh,
-                          node,
-                          supports.row(p),
-                          horizon[node],
-                          true,
-                          nodes);
+        find_family_nodes(mesh, node, supports.row(p), horizon[node], nodes);
         for (const unsigned int n : nodes)
           if (n != node && !cracks.crosses(mesh.nodes[node], mesh.nodes[n]))
             append_bond(mesh,

@@ -37,28 +37,37 @@ namespace Perimorph::Coupling
   void
   CorrespondenceTerm<dim>::sort_bonds()
   {
+    const auto has_gradient = [](const dealii::Tensor<1, dim> &weight) {
+      return weight.norm_square() > 0.;
+    };
     std::vector<std::size_t> order;
     const auto reorder = [&](auto &list, const std::size_t first) {
       const auto row =
         std::vector(list.begin() + first, list.begin() + first + order.size());
       for (std::size_t k = 0; k < order.size(); ++k)
-        list[first + k] = row[order[k] - first];
+        list[first + k] = row[order[k]];
     };
     for (std::size_t p = 0; p < families.n_particles(); ++p)
       {
         const std::size_t first = families.offsets[p];
-        order.resize(families.offsets[p + 1] - first);
-        std::iota(order.begin(), order.end(), first);
-        const auto end =
-          std::stable_partition(order.begin(), order.end(), [&](const auto b) {
-            return families.gradient_weight[b].norm_square() > 0.;
-          });
-        n_gradient_bonds.push_back(end - order.begin());
-        if (std::is_sorted(order.begin(), order.end()))
-          continue;
-        reorder(families.neighbor, first);
-        reorder(families.gradient_weight, first);
-        reorder(families.bond_weight, first);
+        const auto        begin = families.gradient_weight.begin() + first;
+        const auto        end =
+          families.gradient_weight.begin() + families.offsets[p + 1];
+        // Gradients over the horizon have nothing to move.
+        if (!std::is_partitioned(begin, end, has_gradient))
+          {
+            order.resize(end - begin);
+            std::iota(order.begin(), order.end(), 0);
+            std::stable_partition(
+              order.begin(),
+              order.end(),
+              [&](const std::size_t k) { return has_gradient(begin[k]); });
+            reorder(families.neighbor, first);
+            reorder(families.bond_weight, first);
+            reorder(families.gradient_weight, first);
+          }
+        n_gradient_bonds.push_back(
+          std::partition_point(begin, end, has_gradient) - begin);
       }
   }
 

@@ -200,8 +200,7 @@ namespace Perimorph::Coupling
     FamilyParameters options{
       influence_function_of(parameters, nodal, region),
       parameters.gamma,
-      parameters.scale.value_or(dim == 3 && parameters.support ==
-                                              GradientSupport::horizon
+      parameters.scale.value_or(dim == 3 && has_wide_gradients(parameters)
                                   ? StabilizationScale::shear_modulus
                                   : StabilizationScale::bending),
       parameters.support,

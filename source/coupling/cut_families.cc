@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <unordered_map>
 
@@ -206,12 +207,10 @@ namespace Perimorph::Coupling
   {
     const unsigned int        node = particles[particle].node;
     std::vector<unsigned int> all;
-    find_family_nodes(mesh,
-                      node,
-                      supports.row(particle),
-                      horizon[node],
-                      parameters.support == GradientSupport::adjacent_cells,
-                      all);
+    const double reach = parameters.support == GradientSupport::adjacent_cells
+                           ? horizon[node]
+                           : std::numeric_limits<double>::infinity();
+    find_family_nodes(mesh, node, supports.row(particle), reach, all);
     all.erase(std::find(all.begin(), all.end(), node));
     const auto take_visible = [&](const std::vector<unsigned int> &candidates) {
       family.neighbors.clear();

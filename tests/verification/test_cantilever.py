@@ -26,7 +26,7 @@ TABLE = {
 
 
 # Curvature 1 about z, uniaxial stress; origin in the middle of the end x-.
-BENDING = ("x = -x*y, y = 0.5*(x^2 + nu*(y^2 - z^2)), z = nu*y*z")
+BENDING = "x = -x*y, y = 0.5*(x^2 + nu*(y^2 - z^2)), z = nu*y*z"
 BEAM = {
     "Dimension": 3,
     "Mesh/file": "beam.msh",

@@ -12,7 +12,8 @@ from verification import Study, rate
 
 CELLS_AROUND = (32, 64, 128)
 ADJACENT = "adjacent cells"
-# mode, model or gradient support, m: L2, energy error, K_t error in % (None: not in the table)
+# mode, model or gradient support, m: L2, energy error, K_t error in % (None:
+# not in the table)
 TABLE = [
     ("finite elements", "correspondence", 2., (4.65e-3, 1.20e-3, 3.05e-4),
      (1.44e-2, 3.88e-3, 1.00e-3), (-4.8, -1.4, -.4)),

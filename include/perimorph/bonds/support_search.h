@@ -23,6 +23,13 @@ namespace Perimorph::Bonds
                      const std::vector<double>  &weight,
                      const std::vector<double>  &horizon);
 
+  /// Cells of the particle's material at its node, in rising order.
+  template <int dim>
+  void
+  find_adjacent_cells(const Mesh::NodalMesh<dim> &mesh,
+                      const ParticleSeed         &particle,
+                      std::vector<unsigned int>  &cells);
+
   /// Cells of the particle's material that its gradient averages over: those
   /// with their centroid within the horizon, connected to the particle through
   /// such cells, and the cells at the node (numerics-explicit.md, section 2).

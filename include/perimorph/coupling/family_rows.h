@@ -51,17 +51,15 @@ namespace Perimorph::Coupling
     std::vector<unsigned int>           nodes;
   };
 
-  /// Nodes of the family of a particle, its own included, in rising order.
-  /// @param cells           its support
-  /// @param within_horizon  of the support only nodes within the horizon, and
-  ///        those of the cells at the particle
+  /// Nodes of the family of a particle, its own included, in rising order: of
+  /// the cells of its support those within reach, and all of the cells at the
+  /// particle.
   template <int dim, typename Cells>
   void
   find_family_nodes(const Mesh::NodalMesh<dim> &mesh,
                     const unsigned int          node,
                     const Cells                &cells,
                     const double                horizon,
-                    const bool                  within_horizon,
                     std::vector<unsigned int>  &nodes)
   {
     const double reach = horizon * (1. + Bonds::horizon_slack);
@@ -70,7 +68,6 @@ namespace Perimorph::Coupling
       {
         const auto &corners = mesh.cells[c];
         const bool  all =
-          !within_horizon ||
           std::find(corners.begin(), corners.end(), node) != corners.end();
         for (const unsigned int n : corners)
           if (all || mesh.nodes[n].distance(mesh.nodes[node]) <= reach)
