@@ -106,6 +106,11 @@ namespace Perimorph::Application
       "nu [-]. Bond-based peridynamics has a fixed value: 1/3 in "
       "plane stress, 1/4 in plane strain and 3D.",
       Double());
+    prm.add_parameter("density",
+                      density,
+                      "Mass per volume of the reference state, of bodies that "
+                      "move ('Time integration').",
+                      Double(0.));
     prm.add_parameter(
       "state",
       state,
@@ -285,6 +290,8 @@ namespace Perimorph::Application
                       "has not reached the end time.",
                       Integer(1));
     prm.leave_subsection();
+
+    declare_time_integration(prm);
 
     prm.enter_subsection("Expressions");
     prm.add_parameter("constants",

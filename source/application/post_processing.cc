@@ -214,6 +214,9 @@ namespace Perimorph::Application
         names.push_back(name + "_displacement_" + letters[d]);
       for (const auto &component : Parameters::stress_components(dim))
         names.push_back(name + "_stress_" + component);
+      if (parameters.time_integration.has_inertia())
+        for (int d = 0; d < dim; ++d)
+          names.push_back(name + "_velocity_" + letters[d]);
       if (parameters.finite_strain())
         for (const auto &measure :
              finite_strain_measures(Fracture::Stress<dim>()))
@@ -265,6 +268,12 @@ namespace Perimorph::Application
       list.push_back({name + "_stress_" + component,
                       stress_component(stress, component),
                       "stress"});
+    if (!state.velocity.empty())
+      {
+        const auto v = probe->displacement_at(point, state.velocity);
+        for (int d = 0; d < dim; ++d)
+          list.push_back({name + "_velocity_" + letters[d], v[d], "velocity"});
+      }
     if (parameters.finite_strain())
       for (const auto &measure : finite_strain_measures(stress))
         list.push_back(

@@ -29,6 +29,7 @@ namespace Perimorph::Application
     {
       static const std::regex ours(
         "results\\.json|newton\\.csv|load_steps\\.csv|quantities\\.csv|"
+        "time_steps\\.csv|"
         "probe_.*\\.csv|checkpoint|checkpoint\\.part|"
         "crack_growth\\.csv|broken_bonds\\.csv|"
         "(solution|particles|cracks)(_[0-9]+\\.vtu|\\.pvd)");
@@ -73,13 +74,20 @@ namespace Perimorph::Application
         report_set_up(method);
         if (resumed)
           restore(method);
-        const bool complete = solve_load_steps(method);
-        const auto state    = gather(method);
-        evaluate(method, state);
+        bool complete = true;
+        if (parameters.time_integration.has_inertia())
+          integrate_in_time(method);
+        else
+          {
+            complete = solve_load_steps(method);
+            evaluate(method, gather(method));
+          }
         report_skipped(method);
         if (parameters.compare_with_finite_elements &&
             parameters.region.mode != Mesh::Mode::finite_elements)
-          compare_with_finite_elements(state);
+          compare_with_finite_elements(
+            parameters.time_integration.has_inertia() ? last_state :
+                                                        gather(method));
         finish(complete ? Output::Status::converged : Output::Status::stopped);
       }
     catch (const Base::SolveError &)

@@ -157,6 +157,11 @@ namespace Perimorph::Application
     action("counts work", counts_work);
     action("largest force", largest_force);
     action("point supports checked", point_supports_checked);
+    action("stable time step", stable_time_step);
+    action("energy at start", energy_at_start);
+    action("largest energy", largest_energy);
+    action("energy drift", energy_drift);
+    action("time steps", n_time_steps);
   }
 
   template <int dim>
@@ -189,6 +194,12 @@ namespace Perimorph::Application
           numbers[section + " / " + name] = *value;
       arrays["recent loads"] = recent_loads;
       arrays["displacement"] = in_file_order(*mesh, state.displacement);
+      if (!state.velocity.empty())
+        {
+          arrays["velocity"]     = in_file_order(*mesh, state.velocity);
+          arrays["acceleration"] = in_file_order(*mesh, state.acceleration);
+          numbers["work of motion"] = method.motion.work;
+        }
       if (!direction.empty())
         arrays["arc direction"] = in_file_order(*mesh, direction);
       if (method.region.alpha != region.alpha)
@@ -333,6 +344,23 @@ namespace Perimorph::Application
                               progress.arc.direction);
       }
     method.time = numbers.at("time");
+    if (arrays.count("velocity") > 0)
+      {
+        auto &motion = method.motion;
+        motion.time  = method.time;
+        motion.work  = numbers.at("work of motion");
+        for (const auto &[name, vector] :
+             {std::make_pair("displacement", &motion.displacement),
+              std::make_pair("velocity", &motion.velocity),
+              std::make_pair("acceleration", &motion.acceleration)})
+          {
+            partition.initialize(*vector);
+            Fem::set_nodal_values(vectors_from_file_order(*mesh,
+                                                          arrays.at(name)),
+                                  partition,
+                                  *vector);
+          }
+      }
     method.equilibrium->restore(
       {numbers.at("largest force of solves"), stored_plates<dim>(*resumed)},
       method.time,

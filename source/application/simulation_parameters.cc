@@ -101,6 +101,7 @@ namespace Perimorph::Application
     read_boundary_conditions(texts, errors);
     read_quantities(texts, parameter_file, errors);
     read_cracks(texts, errors);
+    read_time_integration(texts, errors);
     check_law(errors);
   }
 
@@ -138,6 +139,7 @@ namespace Perimorph::Application
                              "more than -1 and less than 0.5");
     };
     material = {texts.youngs_modulus, texts.poissons_ratio};
+    density  = texts.density;
     check("Material / ", material, "");
 
     const std::string path = "Material / by volume";

@@ -99,7 +99,9 @@ namespace Perimorph::Application
     if (supports && loads)
       {
         errors.collect([&]() { check_crack_mouths(); });
-        errors.collect([&]() { hold_rigid_motion(); });
+        if (!parameters.time_integration.has_inertia())
+          errors.collect([&]() { hold_rigid_motion(); });
+        errors.collect([&]() { check_motion(); });
       }
     errors.throw_if_any();
   }
@@ -234,9 +236,11 @@ namespace Perimorph::Application
                                       parameters.state));
       materials.bond_constants.push_back(
         {constants.youngs_modulus, parameters.state});
+      materials.density.push_back(parameters.density);
     };
     materials.laws.clear();
     materials.bond_constants.clear();
+    materials.density.clear();
     add(parameters.material);
     auto &nodal = mesh->nodal();
     for (const auto &entry : parameters.volume_materials)
@@ -290,7 +294,7 @@ namespace Perimorph::Application
   void
   Simulation<dim>::warn_if_nothing_happens()
   {
-    if (!loads->empty())
+    if (!loads->empty() || starts_in_motion())
       return;
     for (const double time : parameters.times())
       if (supports->move(time))

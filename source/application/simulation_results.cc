@@ -99,6 +99,8 @@ namespace Perimorph::Application
     const auto          timer = timing.scope("output");
     Output::Fields<dim> nodal_fields;
     nodal_fields.add("displacement", state.displacement);
+    if (!state.velocity.empty())
+      nodal_fields.add("velocity", state.velocity);
     nodal_fields.add("alpha", method.region.alpha);
     nodal_fields.add("horizon", method.region.horizon);
     std::vector<double> damage(mesh->nodal().n_nodes(), 0.);

@@ -43,6 +43,16 @@ namespace Perimorph::Coupling
   }
 
   template <int dim>
+  std::vector<const Fem::Contribution<dim> *>
+  CoupledProblem<dim>::preconditioner_terms() const
+  {
+    std::vector<const Term *> list = {preconditioner.get()};
+    if (inertia)
+      list.push_back(inertia.get());
+    return list;
+  }
+
+  template <int dim>
   std::shared_ptr<const Fem::Contribution<dim>>
   CoupledProblem<dim>::elements() const
   {
@@ -121,7 +131,8 @@ namespace Perimorph::Coupling
       }
     double energy = 0.;
     for (const auto &term : contributions)
-      energy += term->energy(displacement);
+      if (term != inertia)
+        energy += term->energy(displacement);
     return dealii::Utilities::MPI::sum(energy, mesh.communicator());
   }
 

@@ -7,9 +7,9 @@
 #include <perimorph/coupling/cell_part_term.h>
 #include <perimorph/coupling/correspondence_term.h>
 #include <perimorph/coupling/coupled_problem.h>
-#include <perimorph/coupling/grounding_term.h>
 #include <perimorph/coupling/segment_piece_term.h>
 #include <perimorph/coupling/softened_elements.h>
+#include <perimorph/fem/nodal_springs.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -303,10 +303,14 @@ namespace Perimorph::Coupling
     for (const unsigned int n : nodes)
       if (nodal.owns_node(n))
         owned.push_back(partition().local(n));
-    contributions.push_back(std::make_unique<GroundingTerm<dim>>(
-      std::move(owned),
+    std::vector<double> stiffness(
+      owned.size(),
       share * constants_at_rest(*materials.laws[0]).youngs_modulus *
-        std::pow(spacing, dim - 2)));
+        std::pow(spacing, dim - 2));
+    contributions.push_back(
+      std::make_unique<Fem::NodalSprings<dim>>("springs of loose parts",
+                                               std::move(owned),
+                                               std::move(stiffness)));
   }
 
   template <int dim>

@@ -10,19 +10,6 @@ namespace Perimorph::Fem
 {
   namespace
   {
-    template <int dim>
-    dealii::Tensor<1, dim>
-    evaluate(const ComponentExpressions<dim> &components,
-             const dealii::Point<dim>        &point,
-             const double                     time)
-    {
-      dealii::Tensor<1, dim> value;
-      for (int d = 0; d < dim; ++d)
-        if (components[d])
-          value[d] = components[d]->value(point, time);
-      return value;
-    }
-
     /// Expressions of a list of conditions, for checks that treat all alike.
     template <int dim>
     std::vector<const Parameters::Expression *>

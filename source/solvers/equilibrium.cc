@@ -191,7 +191,7 @@ namespace Perimorph::Solvers
         return;
       }
     preconditioner_is_kept = linear_solver && preconditioner_age.still_pays();
-    const Terms preconditioner_terms = {&problem.preconditioner_elements()};
+    const Terms preconditioner_terms = problem.preconditioner_terms();
     {
       const auto timer = timing.scope("assembly");
       if (!pattern_is_made)

@@ -25,6 +25,8 @@ namespace Perimorph::Application
     std::vector<dealii::Tensor<1, dim>> external_force;
     double                              strain_energy = 0.;
     double                              time          = 0.;
+    /// Of bodies that move, else empty. Inertia counts as internal force.
+    std::vector<dealii::Tensor<1, dim>> velocity, acceleration;
   };
 
   /// One number for results.json.

@@ -11,7 +11,9 @@
 #include <perimorph/output/csv_writer.h>
 #include <perimorph/output/field_output.h>
 #include <perimorph/output/results.h>
+#include <perimorph/solvers/dynamic_relaxation.h>
 #include <perimorph/solvers/equilibrium.h>
+#include <perimorph/solvers/motion_state.h>
 
 #include <map>
 #include <memory>
@@ -82,6 +84,10 @@ namespace Perimorph::Application
       std::unique_ptr<Solvers::Equilibrium<dim>>     equilibrium;
       Fem::Vector                                    displacement;
       double                                         time = 0.;
+      Solvers::MotionState motion; ///< of bodies that move
+      /// Where equilibrium is found by relaxation.
+      std::unique_ptr<Solvers::NodalForces<dim>>       forces;
+      std::unique_ptr<Solvers::DynamicRelaxation<dim>> relaxation;
 
       Method()          = default;
       Method(Method &&) = default;
@@ -94,6 +100,13 @@ namespace Perimorph::Application
         std::swap(problem, other.problem);
         displacement.swap(other.displacement);
         time = other.time;
+        std::swap(motion.time, other.motion.time);
+        std::swap(motion.work, other.motion.work);
+        motion.displacement.swap(other.motion.displacement);
+        motion.velocity.swap(other.motion.velocity);
+        motion.acceleration.swap(other.motion.acceleration);
+        std::swap(relaxation, other.relaxation);
+        std::swap(forces, other.forces);
         return *this;
       }
     };
@@ -134,6 +147,13 @@ namespace Perimorph::Application
     hold_rigid_motion();
     void
     warn_if_nothing_happens();
+    /// Supports that methods without a matrix cannot hold, initial fields that
+    /// are not finite.
+    /// @throws Base::InputError
+    void
+    check_motion() const;
+    bool
+    starts_in_motion() const;
     void
     check_load_balance(const Fem::NodePartition<dim> &partition) const;
 
@@ -194,6 +214,37 @@ namespace Perimorph::Application
     follow_arc(Method         &method,
                const OnStep   &on_step,
                const OnNewton &on_newton);
+    /// A state of motion that is kept, and what led to it.
+    struct Instant
+    {
+      unsigned int number;
+      State<dim>   state = {};
+      double       kinetic_energy = 0., energy_balance = 0.;
+      unsigned int       time_steps = 0;
+      unsigned int       newton_iterations = 0, linear_iterations = 0;
+    };
+    using OnInstant = std::function<void(const Instant &)>;
+    /// Follows the motion of a body to the end time; on_instant gets its states
+    /// at the output intervals.
+    /// @throws Base::InputError  a time step above the stability limit
+    /// @throws Base::SolveError
+    void
+    follow_motion(Method &method, const OnInstant &on_instant);
+    Solvers::MotionState
+    initial_motion(const Method &method) const;
+    /// The run of a body that moves: tables, fields, checkpoints.
+    void
+    integrate_in_time(Method &method);
+    State<dim>
+    gather_motion(const Method               &method,
+                  const Solvers::MotionState &motion,
+                  const Fem::Vector          &internal_force,
+                  const Fem::Vector          &external_force) const;
+    /// Equilibrium at a time, by Newton's method or by relaxation.
+    Solvers::NewtonRecord
+    solve_equilibrium(double                                         time,
+                      Method                                        &method,
+                      const typename Solvers::Equilibrium<dim>::Report &report);
     /// Growth of cracks: advances at the loads of the state of a method while
     /// one releases its fracture energy; on_step gets the state after each.
     /// @return  false if the body is separated
@@ -440,6 +491,13 @@ namespace Perimorph::Application
     State<dim> last_state;
     double     work        = 0.;
     bool       counts_work = true;
+
+    // Motion.
+    std::vector<double> node_mass;
+    double              stable_time_step = 0.; ///< 0: not known
+    double              energy_at_start = 0., largest_energy = 0.,
+           energy_drift = 0.;
+    std::size_t n_time_steps = 0;
 
     // Progress, tables by name, checkpoints.
     Progress progress;

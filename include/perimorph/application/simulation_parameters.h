@@ -30,6 +30,9 @@ namespace Perimorph::Application
     /// The section 'Cracks' of declare().
     void
     declare_cracks(dealii::ParameterHandler &prm);
+    /// The section 'Time integration'.
+    void
+    declare_time_integration(dealii::ParameterHandler &prm);
 
     std::string  title, mode = "coupled", output_folder;
     unsigned int dimension = 2;
@@ -43,7 +46,7 @@ namespace Perimorph::Application
                                 curved_boundaries = "automatic";
 
     std::string law = "linear elastic", state = "automatic", by_volume;
-    double      youngs_modulus = 0., poissons_ratio = 0.;
+    double      youngs_modulus = 0., poissons_ratio = 0., density = 0.;
 
     std::string model = "correspondence", around, core_size = "automatic",
                 blending_width = "automatic", blending_function = "cubic",
@@ -72,6 +75,11 @@ namespace Perimorph::Application
     unsigned int n_steps = 1, maximum_cuts = 10, maximum_arc_steps = 200;
     double       end_time = 1.;
     std::string  control  = "load";
+
+    std::string scheme = "static", initial_displacement, initial_velocity;
+    double time_step = 0., safety_factor = 0.9, spectral_radius = 1.,
+           output_interval = 0., field_interval = 0.;
+    unsigned int maximum_relaxation_steps = 200000;
 
     std::string constants;
 
@@ -123,6 +131,46 @@ namespace Perimorph::Application
     std::vector<Parameters::Feature> protected_features;
   };
 
+  /// How t is followed.
+  enum class TimeScheme
+  {
+    equilibrium, ///< static: Newton's method at each load step
+    explicit_motion,
+    implicit_motion,
+    relaxation ///< static: a damped motion at each load step
+  };
+
+  /// Names in the order of TimeScheme.
+  const std::vector<std::string> &
+  time_scheme_names();
+
+  template <int dim>
+  struct TimeIntegrationParameters
+  {
+    TimeScheme   scheme;
+    double       time_step;       ///< 0: automatic
+    double       safety_factor;   ///< of the stable time step
+    double       spectral_radius; ///< of implicit motion
+    double       field_interval;  ///< time between field files
+    unsigned int maximum_relaxation_steps;
+    Fem::ComponentExpressions<dim> initial_displacement, initial_velocity;
+
+    bool
+    has_inertia() const
+    {
+      return scheme == TimeScheme::explicit_motion ||
+             scheme == TimeScheme::implicit_motion;
+    }
+
+    /// Without matrices.
+    bool
+    is_by_nodes() const
+    {
+      return scheme == TimeScheme::explicit_motion ||
+             scheme == TimeScheme::relaxation;
+    }
+  };
+
   /// Everything a run needs to know, checked and typed.
   template <int dim>
   struct SimulationParameters
@@ -156,6 +204,8 @@ namespace Perimorph::Application
     bool                            arc_length;
     unsigned int                    maximum_arc_steps;
     Solvers::LoadSteppingParameters load_stepping;
+    TimeIntegrationParameters<dim>  time_integration;
+    double                          density;
 
     Solvers::LinearSolverKind linear_solver;
     Solvers::TangentKind      tangent;
@@ -182,7 +232,7 @@ namespace Perimorph::Application
     bool
     finite_strain() const;
 
-    /// Times of the load steps.
+    /// Times of the load steps, or of the states of a motion that are kept.
     std::vector<double>
     times() const;
 
@@ -198,6 +248,9 @@ namespace Perimorph::Application
     void
     read_boundary_conditions(const ParameterTexts      &texts,
                              Base::InputErrorCollector &errors);
+    void
+    read_time_integration(const ParameterTexts      &texts,
+                          Base::InputErrorCollector &errors);
     void
     read_quantities(const ParameterTexts      &texts,
                     const std::string         &parameter_file,

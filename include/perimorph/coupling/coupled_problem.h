@@ -4,6 +4,7 @@
 #include <perimorph/coupling/bond_set.h>
 #include <perimorph/coupling/consistent_families.h>
 #include <perimorph/fem/elastic_cells.h>
+#include <perimorph/fem/nodal_springs.h>
 #include <perimorph/mesh/region_map.h>
 
 #include <functional>
@@ -75,6 +76,7 @@ namespace Perimorph::Coupling
   {
     typename Fem::ElasticCells<dim>::MaterialList laws;
     std::vector<BondMaterial>                     bond_constants;
+    std::vector<double>                           density;
   };
 
   /// Peridynamics of a body before bonds broke one by one: what takes time to
@@ -167,12 +169,24 @@ namespace Perimorph::Coupling
       return *parts_to_share.all_cells;
     }
 
+    /// Adds the inertia of a time step; it has no strain energy.
+    void
+    set_inertia(std::shared_ptr<Fem::NodalSprings<dim>> springs)
+    {
+      contributions.push_back(springs);
+      inertia = std::move(springs);
+    }
+
     /// Elements whose stiffness is close to that of the coupled problem.
     const Fem::ElasticCells<dim> &
     preconditioner_elements() const
     {
       return *preconditioner;
     }
+
+    /// These and the inertia.
+    std::vector<const Term *>
+    preconditioner_terms() const;
 
     /// What stays the same while families change; none, on all ranks, if no
     /// element works.
@@ -302,6 +316,7 @@ namespace Perimorph::Coupling
     std::vector<const Term *>               of_particles;
     bool                                    families_exist = false;
     std::shared_ptr<Fem::ElasticCells<dim>> preconditioner;
+    std::shared_ptr<Fem::NodalSprings<dim>> inertia; ///< or none
     BondSet                                 bond_set;
     Counts                                  local_counts;
     CrackReport                             cracked;

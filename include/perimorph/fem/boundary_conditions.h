@@ -2,6 +2,8 @@
 
 #include <perimorph/parameters/expression.h>
 
+#include <deal.II/base/point.h>
+
 #include <array>
 #include <optional>
 #include <string>
@@ -13,6 +15,20 @@ namespace Perimorph::Fem
   template <int dim>
   using ComponentExpressions =
     std::array<std::optional<Parameters::Expression>, dim>;
+
+  /// Zero where a component has no expression.
+  template <int dim>
+  dealii::Tensor<1, dim>
+  evaluate(const ComponentExpressions<dim> &components,
+           const dealii::Point<dim>        &point,
+           const double                     time)
+  {
+    dealii::Tensor<1, dim> value;
+    for (int d = 0; d < dim; ++d)
+      if (components[d])
+        value[d] = components[d]->value(point, time);
+    return value;
+  }
 
   /// Prescribed displacement on a named boundary or at the node nearest to a
   /// point (boundary empty).

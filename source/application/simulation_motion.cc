@@ -1,0 +1,406 @@
+#include <perimorph/application/simulation.h>
+#include <perimorph/base/log.h>
+#include <perimorph/base/progress.h>
+#include <perimorph/fem/lumped_mass.h>
+#include <perimorph/fem/nodal_values.h>
+#include <perimorph/solvers/explicit_motion.h>
+#include <perimorph/solvers/implicit_motion.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace Perimorph::Application
+{
+  namespace
+  {
+    /// Number of equal steps, none longer than wanted, that fill a time.
+    unsigned int
+    steps_that_fill(const double duration, const double longest)
+    {
+      return std::max(1., std::ceil(duration / longest * (1. - 1e-9)));
+    }
+
+    constexpr double implicit_over_explicit = 10.;
+  } // namespace
+
+  template <int dim>
+  bool
+  Simulation<dim>::starts_in_motion() const
+  {
+    const auto &time = parameters.time_integration;
+    for (const auto *field : {&time.initial_displacement,
+                              &time.initial_velocity})
+      for (const auto &component : *field)
+        if (component)
+          return true;
+    return false;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::check_motion() const
+  {
+    const auto &time = parameters.time_integration;
+    if (time.scheme == TimeScheme::equilibrium)
+      return;
+    Base::InputErrorCollector errors;
+    const std::string         scheme =
+      "with scheme '" + time_scheme_names()[static_cast<int>(time.scheme)] +
+      "'";
+    if (!supports->mean_constraints().empty())
+      errors.add_parameter("Boundary conditions / mean displacement",
+                           "'" + parameters.boundary_conditions
+                                   .mean_displacement.front()
+                                   .boundary +
+                             "' " + scheme,
+                           "displacement, symmetry",
+                           "Only 'static' holds boundaries as a whole.");
+    if (!supports->rigid_plates().empty())
+      errors.add_parameter("Boundary conditions / rigid plate",
+                           "'" + parameters.boundary_conditions.rigid_plates
+                                   .front()
+                                   .boundary +
+                             "' " + scheme,
+                           "displacement, symmetry",
+                           "Only 'static' holds boundaries as a whole.");
+    for (const auto *field : {&time.initial_displacement,
+                              &time.initial_velocity})
+      for (const auto &component : *field)
+        if (component)
+          for (const auto &node : mesh->nodal().nodes)
+            if (!component->check_finite(node, 0., errors))
+              break;
+    errors.throw_if_any();
+  }
+
+  template <int dim>
+  Solvers::NewtonRecord
+  Simulation<dim>::solve_equilibrium(
+    const double                                          time,
+    Method                                               &method,
+    const typename Solvers::Equilibrium<dim>::Report     &report)
+  {
+    const auto &choice = parameters.time_integration;
+    if (choice.scheme != TimeScheme::relaxation)
+      return method.equilibrium->solve(time, method.displacement, report);
+    if (!method.relaxation)
+      {
+        method.forces = std::make_unique<Solvers::NodalForces<dim>>(
+          *mesh, *method.problem, *supports, *loads, timing);
+        method.relaxation = std::make_unique<Solvers::DynamicRelaxation<dim>>(
+          *method.forces,
+          Solvers::RelaxationParameters{parameters.newton.tolerance,
+                                        choice.maximum_relaxation_steps});
+      }
+    const auto record =
+      method.relaxation->solve(time, method.displacement, report);
+    if (record.converged)
+      method.equilibrium->restore(method.equilibrium->memory(),
+                                  time,
+                                  method.displacement);
+    return record;
+  }
+
+  template <int dim>
+  Solvers::MotionState
+  Simulation<dim>::initial_motion(const Method &method) const
+  {
+    const auto          &partition = method.problem->partition();
+    const auto          &time      = parameters.time_integration;
+    Solvers::MotionState motion;
+    for (auto *vector :
+         {&motion.displacement, &motion.velocity, &motion.acceleration})
+      partition.initialize(*vector);
+    for (unsigned int n = 0; n < partition.n_owned(); ++n)
+      {
+        const auto &x = partition.position(n);
+        const auto  u = Fem::evaluate<dim>(time.initial_displacement, x, 0.);
+        const auto  v = Fem::evaluate<dim>(time.initial_velocity, x, 0.);
+        for (int d = 0; d < dim; ++d)
+          {
+            motion.displacement.local_element(dim * n + d) = u[d];
+            motion.velocity.local_element(dim * n + d)     = v[d];
+          }
+      }
+    return motion;
+  }
+
+  template <int dim>
+  State<dim>
+  Simulation<dim>::gather_motion(const Method               &method,
+                                 const Solvers::MotionState &motion,
+                                 const Fem::Vector &internal_force,
+                                 const Fem::Vector &external_force) const
+  {
+    const auto &partition = method.problem->partition();
+    State<dim>  state;
+    Fem::Vector displacement(motion.displacement);
+    displacement.update_ghost_values();
+    state.displacement   = Fem::to_nodal_values(displacement, partition);
+    state.velocity       = Fem::to_nodal_values(motion.velocity, partition);
+    state.acceleration   = Fem::to_nodal_values(motion.acceleration, partition);
+    state.internal_force = Fem::to_nodal_values(internal_force, partition);
+    state.external_force = Fem::to_nodal_values(external_force, partition);
+    state.time           = motion.time;
+    state.strain_energy  = method.problem->strain_energy(displacement);
+    return state;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::follow_motion(Method &method, const OnInstant &on_instant)
+  {
+    const auto &time        = parameters.time_integration;
+    const bool  is_explicit = time.scheme == TimeScheme::explicit_motion;
+    const auto  times       = parameters.times();
+    auto       &motion      = method.motion;
+    node_mass = Fem::lumped_mass(mesh->nodal(), materials.density);
+    Solvers::NodalForces<dim> forces(
+      *mesh, *method.problem, *supports, *loads, timing);
+    Solvers::ExplicitMotion<dim> by_nodes(forces, node_mass);
+    const bool is_fresh = motion.displacement.size() == 0;
+    if (is_fresh)
+      {
+        motion = initial_motion(method);
+        by_nodes.start(motion);
+      }
+    else if (is_explicit)
+      forces.evaluate(motion.time, motion.displacement);
+    if (stable_time_step == 0. && (is_explicit || time.time_step == 0.))
+      {
+        const auto timer = timing.scope("time_step_limit");
+        stable_time_step = by_nodes.stable_time_step(motion);
+      }
+    if (is_explicit && time.time_step > stable_time_step)
+      {
+        std::ostringstream found, allowed;
+        found << time.time_step;
+        allowed << "at most " << stable_time_step
+                << ", the stability limit of this mesh";
+        throw Base::InputError(
+          Base::InputMessage{"parameter 'Time integration / time step'",
+                             found.str(),
+                             allowed.str(),
+                             "0 chooses it; the safety factor is 'Time "
+                             "integration / safety factor'."});
+      }
+    const double longest =
+      time.time_step > 0. ? time.time_step :
+                            time.safety_factor * stable_time_step *
+                              (is_explicit ? 1. : implicit_over_explicit);
+    if (is_explicit)
+      log << "Stability limit of explicit steps: " << stable_time_step
+          << std::endl;
+
+    const auto at_instant = [&](Instant instant) {
+      const auto &inner = is_explicit || instant.number == 0 ?
+                            forces.internal() :
+                            method.equilibrium->internal_forces();
+      const auto &outer = is_explicit || instant.number == 0 ?
+                            forces.external() :
+                            method.equilibrium->external_forces();
+      auto        complete = inner;
+      if (is_explicit || instant.number == 0)
+        complete += by_nodes.inertia(motion);
+      method.displacement = motion.displacement;
+      method.time         = motion.time;
+      const auto state    = gather_motion(method, motion, complete, outer);
+      instant.kinetic_energy =
+        Solvers::kinetic_energy<dim>(method.problem->partition(),
+                                     node_mass,
+                                     motion.velocity);
+      const double energy = state.strain_energy + instant.kinetic_energy;
+      if (!std::isfinite(energy))
+        {
+          std::ostringstream text;
+          text << "the motion has no finite energy at t = " << motion.time
+               << ". The last state kept is in '" << parameters.output_folder
+               << "'.";
+          throw Base::SolveError(text.str());
+        }
+      if (instant.number == 0)
+        energy_at_start = energy;
+      largest_energy =
+        std::max({largest_energy, energy, std::abs(motion.work)});
+      if (largest_energy > 0.)
+        instant.energy_balance = (energy + dissipated_energy - energy_at_start -
+                                  motion.work) /
+                                 largest_energy;
+      energy_drift = std::max(energy_drift, std::abs(instant.energy_balance));
+      instant.state = state;
+      on_instant(instant);
+    };
+    if (is_fresh)
+      at_instant({0});
+
+    std::unique_ptr<Solvers::ImplicitMotion<dim>> by_newton;
+    if (!is_explicit)
+      by_newton =
+        std::make_unique<Solvers::ImplicitMotion<dim>>(*method.problem,
+                                                       *method.equilibrium,
+                                                       forces,
+                                                       node_mass,
+                                                       time.spectral_radius);
+    std::unique_ptr<Base::Progress> bar;
+    for (unsigned int number = progress.number + 1; number <= times.size();
+         ++number)
+      {
+        const double       start = number > 1 ? times[number - 2] : 0.;
+        const double       end   = times[number - 1];
+        const unsigned int n     = steps_that_fill(end - start, longest);
+        if (!bar)
+          bar = std::make_unique<Base::Progress>(
+            log, "Time steps", n * (times.size() - progress.number));
+        Instant              instant{number};
+        Solvers::LoadStepping cuts(parameters.load_stepping);
+        for (unsigned int k = 0; k < n; ++k)
+          {
+            const double next = start + (end - start) * (k + 1) / n;
+            if (is_explicit)
+              by_nodes.step((end - start) / n, motion);
+            else
+              {
+                Solvers::NewtonRecord record;
+                const double          reached = cuts.advance(
+                  motion.time,
+                  next,
+                  [&](const double target) {
+                    record = by_newton->step(target - motion.time,
+                                             motion,
+                                             [](const auto &) {});
+                    instant.newton_iterations += record.n_iterations();
+                    instant.linear_iterations += record.linear_iterations;
+                    return record.converged;
+                  },
+                  [](double, double) {},
+                  [](double) {});
+                if (reached != next)
+                  {
+                    std::ostringstream text;
+                    text << "the time step to t = " << next
+                         << " did not converge: " << record.reason
+                         << ". The last state kept is in '"
+                         << parameters.output_folder << "'.";
+                    throw Base::SolveError(text.str());
+                  }
+              }
+            motion.time = next;
+            ++n_time_steps;
+            ++instant.time_steps;
+            bar->update(n_time_steps);
+          }
+        at_instant(instant);
+      }
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::integrate_in_time(Method &method)
+  {
+    const auto        &time       = parameters.time_integration;
+    auto              &step_table = open_table("time_steps.csv",
+                                  {"step",
+                                                "time",
+                                                "time_steps",
+                                                "newton_iterations",
+                                                "linear_iterations",
+                                                "strain_energy",
+                                                "kinetic_energy",
+                                                "external_work",
+                                                "dissipated_energy",
+                                                "energy_balance",
+                                                "largest_displacement"});
+    Output::CsvWriter *quantity_table = nullptr;
+    double             field_time     = progress.step.time;
+    bool               evaluated      = false;
+    follow_motion(method, [&](const Instant &instant) {
+      const auto &state = instant.state;
+      result->add_count("newton_iterations", instant.newton_iterations);
+      result->add_count("linear_iterations", instant.linear_iterations);
+      double largest = 0.;
+      for (const auto &u : state.displacement)
+        largest = std::max(largest, u.norm());
+      step_table.write_row({instant.number,
+                            state.time,
+                            n_time_steps,
+                            instant.newton_iterations,
+                            instant.linear_iterations,
+                            state.strain_energy,
+                            instant.kinetic_energy,
+                            method.motion.work,
+                            dissipated_energy,
+                            instant.energy_balance,
+                            largest});
+      const auto values = [&]() {
+        const auto timer = timing.scope("recovery");
+        return quantities(method, state);
+      }();
+      if (!quantity_table)
+        {
+          std::vector<std::string> columns = {"step", "time"};
+          for (const auto &quantity : values)
+            columns.push_back(quantity.name);
+          quantity_table = &open_table("quantities.csv", columns);
+        }
+      std::vector<Output::CsvCell> row = {instant.number, state.time};
+      for (const auto &quantity : values)
+        row.push_back(quantity.exists ? Output::CsvCell(quantity.value) :
+                                        Output::CsvCell(""));
+      quantity_table->write_row(row);
+      progress.number = instant.number;
+      progress.step   = {instant.number, state.time};
+      result->set("counts", "time_steps", n_time_steps);
+      result->set("checks", "energy_balance", instant.energy_balance);
+      result->set("checks", "energy_drift", energy_drift);
+      const bool is_last = instant.number == parameters.n_steps;
+      if (instant.number == 0 || is_last ||
+          state.time >= field_time + time.field_interval * (1. - 1e-9))
+        {
+          field_time = state.time;
+          log << "t = " << state.time << ": strain energy "
+              << state.strain_energy << ", kinetic energy "
+              << instant.kinetic_energy << ", energy balance "
+              << instant.energy_balance << std::endl;
+          if (parameters.write_fields)
+            write_fields(method, state, instant.number, state.time);
+          last_state = state;
+          write_checkpoint(method, state);
+        }
+      if (is_last)
+        {
+          evaluate(method, state);
+          evaluated = true;
+        }
+    });
+    if (!evaluated) // resumed at the end
+      evaluate(method, gather(method));
+    result->set("solver",
+                "time_integration",
+                time_scheme_names()[static_cast<int>(time.scheme)]);
+    if (stable_time_step > 0.)
+      result->set("solver", "stable_time_step", stable_time_step);
+    result->set("solver",
+                "mean_time_step",
+                parameters.end_time / std::max<std::size_t>(n_time_steps, 1));
+  }
+
+#define PERIMORPH_INSTANTIATE(dim)                                           \
+  template bool Simulation<dim>::starts_in_motion() const;                   \
+  template void Simulation<dim>::check_motion() const;                       \
+  template Solvers::NewtonRecord Simulation<dim>::solve_equilibrium(         \
+    double, Method &, const Solvers::Equilibrium<dim>::Report &);            \
+  template Solvers::MotionState Simulation<dim>::initial_motion(             \
+    const Method &) const;                                                   \
+  template State<dim> Simulation<dim>::gather_motion(                        \
+    const Method &,                                                          \
+    const Solvers::MotionState &,                                            \
+    const Fem::Vector &,                                                     \
+    const Fem::Vector &) const;                                              \
+  template void Simulation<dim>::follow_motion(Method &, const OnInstant &); \
+  template void Simulation<dim>::integrate_in_time(Method &);
+
+  PERIMORPH_INSTANTIATE(2)
+  PERIMORPH_INSTANTIATE(3)
+#undef PERIMORPH_INSTANTIATE
+} // namespace Perimorph::Application
