@@ -3,7 +3,7 @@
 #include <perimorph/base/collective.h>
 #include <perimorph/base/log.h>
 #include <perimorph/coupling/bond_energies.h>
-#include <perimorph/coupling/particle_states.h>
+#include <perimorph/coupling/bond_states.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,28 +22,6 @@ namespace Perimorph::Application
     /// Factor by which one event changes the energy of a body of which only a
     /// mechanism is left.
     constexpr double mechanism = 1e4;
-
-    /// Means of the two ends; of the other one where one has lost its family.
-    template <int dim>
-    void
-    see_particles(const Coupling::ParticleState &first,
-                  const Coupling::ParticleState &second,
-                  const dealii::Tensor<1, dim>  &xi,
-                  const dealii::Tensor<1, dim>  &eta,
-                  Damage::BondState             &bond)
-    {
-      const auto &a = first.exists ? first : second;
-      const auto &b = second.exists ? second : first;
-      bond.strain   = 0.5 * (a.strain + b.strain);
-      bond.stress   = 0.5 * (a.stress + b.stress);
-      for (int d = 0; d < dim; ++d)
-        {
-          bond.direction[d] = xi[d] / bond.length;
-          bond.relative[d]  = eta[d] / bond.length;
-        }
-      bond.relative -= 0.5 * (a.rotation + b.rotation) * bond.direction;
-      bond.largest_dilatation = std::max(trace(a.strain), trace(b.strain));
-    }
 
     /// Share of the core inside the body whose nodes sit in the middle of their
     /// neighbours, as those of a lattice do.
@@ -117,12 +95,10 @@ namespace Perimorph::Application
                                   communicator);
     const auto &alpha = method.region.alpha;
 
-    // Nodes whose whole families are peridynamic: nothing else holds there what
-    // their bonds let go.
-    std::vector<bool> in_core(nodal.n_nodes(), true);
+    std::vector<std::array<unsigned int, 2>> pairs;
     for (const auto &bond : energies)
-      if (alpha[bond.nodes[0]] < 1. || alpha[bond.nodes[1]] < 1.)
-        in_core[bond.nodes[0]] = in_core[bond.nodes[1]] = false;
+      pairs.push_back(bond.nodes);
+    const auto in_core = Coupling::nodes_in_core(alpha, pairs);
 
     std::vector<Coupling::ParticleState> particles;
     if (Damage::sees_particles(parameters.growth.criterion))
@@ -138,32 +114,16 @@ namespace Perimorph::Application
     for (const auto &bond : energies)
       {
         const auto [i, j] = bond.nodes;
-        const auto mean   = [&, i = i, j = j](const auto &value) {
-          return 0.5 * (value(i) + value(j));
-        };
-        const auto        xi  = nodal.nodes[j] - nodal.nodes[i];
-        const auto        eta = state.displacement[j] - state.displacement[i];
-        Damage::BondState one;
-        one.length    = xi.norm();
-        one.extension = xi * eta / one.length;
+        const auto xi     = nodal.nodes[j] - nodal.nodes[i];
+        const auto eta    = state.displacement[j] - state.displacement[i];
+        auto       one    = Coupling::bond_state(
+          nodal, method.region, materials.bond_constants, i, j, eta);
         // Where elements carry a part, the whole bond would have more.
-        one.energy         = bond.energy / mean([&](const unsigned int n) {
-                       return std::max(alpha[n], 1e-3);
-                     });
-        one.volume_product = nodal.volume[i] * nodal.volume[j];
-        one.horizon =
-          mean([&](const unsigned int n) { return method.region.horizon[n]; });
-        one.horizon_ratio  = mean([&](const unsigned int n) {
-          return method.region.horizon[n] / nodal.spacing[n];
-        });
-        one.youngs_modulus = mean([&](const unsigned int n) {
-          const unsigned int cell = *nodal.node_cells.row(n).begin();
-          return materials.bond_constants[nodal.cell_material[cell]]
-            .youngs_modulus;
-        });
+        one.energy = bond.energy / (0.5 * (std::max(alpha[i], 1e-3) +
+                                           std::max(alpha[j], 1e-3)));
         one.teeth_lost     = broken.teeth_lost(i, j);
         if (!particles.empty())
-          see_particles(particles[i], particles[j], xi, eta, one);
+          Coupling::see_particles<dim>(particles[i], particles[j], xi, eta, one);
         loads.push_back({bond.nodes,
                          is_protected[i] || is_protected[j]
                            ? never

@@ -1,10 +1,9 @@
+#include <perimorph/application/motion_integrator.h>
 #include <perimorph/application/simulation.h>
 #include <perimorph/base/log.h>
 #include <perimorph/base/progress.h>
 #include <perimorph/fem/lumped_mass.h>
 #include <perimorph/fem/nodal_values.h>
-#include <perimorph/solvers/explicit_motion.h>
-#include <perimorph/solvers/implicit_motion.h>
 
 #include <algorithm>
 #include <cmath>
@@ -148,29 +147,34 @@ namespace Perimorph::Application
   }
 
   template <int dim>
-  void
-  Simulation<dim>::follow_motion(Method &method, const OnInstant &on_instant)
+  std::unique_ptr<MotionIntegrator<dim>>
+  Simulation<dim>::make_integrator(Method &method)
+  {
+    return std::make_unique<MotionIntegrator<dim>>(*mesh,
+                                                   *method.problem,
+                                                   *method.equilibrium,
+                                                   *supports,
+                                                   *loads,
+                                                   node_mass,
+                                                   parameters.time_integration,
+                                                   parameters.load_stepping,
+                                                   timing);
+  }
+
+  template <int dim>
+  double
+  Simulation<dim>::longest_time_step(const MotionIntegrator<dim> &integrator,
+                                     const Method                &method)
   {
     const auto &time        = parameters.time_integration;
     const bool  is_explicit = time.scheme == TimeScheme::explicit_motion;
-    const auto  times       = parameters.times();
-    auto       &motion      = method.motion;
-    node_mass = Fem::lumped_mass(mesh->nodal(), materials.density);
-    Solvers::NodalForces<dim> forces(
-      *mesh, *method.problem, *supports, *loads, timing);
-    Solvers::ExplicitMotion<dim> by_nodes(forces, node_mass);
-    const bool is_fresh = motion.displacement.size() == 0;
-    if (is_fresh)
-      {
-        motion = initial_motion(method);
-        by_nodes.start(motion);
-      }
-    else if (is_explicit)
-      forces.evaluate(motion.time, motion.displacement);
     if (stable_time_step == 0. && (is_explicit || time.time_step == 0.))
       {
         const auto timer = timing.scope("time_step_limit");
-        stable_time_step = by_nodes.stable_time_step(motion);
+        stable_time_step = integrator.stable_time_step(method.motion);
+        if (is_explicit)
+          log << "Stability limit of explicit steps at t = "
+              << method.motion.time << ": " << stable_time_step << std::endl;
       }
     if (is_explicit && time.time_step > stable_time_step)
       {
@@ -178,6 +182,12 @@ namespace Perimorph::Application
         found << time.time_step;
         allowed << "at most " << stable_time_step
                 << ", the stability limit of this mesh";
+        if (n_time_steps > 0)
+          throw Base::SolveError("bonds that broke have lowered the limit of "
+                                 "stable time steps to " +
+                                 allowed.str().substr(8) +
+                                 ": 'Time integration / time step' is " +
+                                 found.str());
         throw Base::InputError(
           Base::InputMessage{"parameter 'Time integration / time step'",
                              found.str(),
@@ -185,112 +195,133 @@ namespace Perimorph::Application
                              "0 chooses it; the safety factor is 'Time "
                              "integration / safety factor'."});
       }
-    const double longest =
-      time.time_step > 0. ? time.time_step :
-                            time.safety_factor * stable_time_step *
-                              (is_explicit ? 1. : implicit_over_explicit);
-    if (is_explicit)
-      log << "Stability limit of explicit steps: " << stable_time_step
-          << std::endl;
+    return time.time_step > 0. ? time.time_step :
+                                 time.safety_factor * stable_time_step *
+                                   (is_explicit ? 1. : implicit_over_explicit);
+  }
 
-    const auto at_instant = [&](Instant instant) {
-      const auto &inner = is_explicit || instant.number == 0 ?
-                            forces.internal() :
-                            method.equilibrium->internal_forces();
-      const auto &outer = is_explicit || instant.number == 0 ?
-                            forces.external() :
-                            method.equilibrium->external_forces();
-      auto        complete = inner;
-      if (is_explicit || instant.number == 0)
-        complete += by_nodes.inertia(motion);
-      method.displacement = motion.displacement;
-      method.time         = motion.time;
-      const auto state    = gather_motion(method, motion, complete, outer);
-      instant.kinetic_energy =
-        Solvers::kinetic_energy<dim>(method.problem->partition(),
-                                     node_mass,
-                                     motion.velocity);
-      const double energy = state.strain_energy + instant.kinetic_energy;
-      if (!std::isfinite(energy))
-        {
-          std::ostringstream text;
-          text << "the motion has no finite energy at t = " << motion.time
-               << ". The last state kept is in '" << parameters.output_folder
-               << "'.";
-          throw Base::SolveError(text.str());
-        }
-      if (instant.number == 0)
-        energy_at_start = energy;
-      largest_energy =
-        std::max({largest_energy, energy, std::abs(motion.work)});
-      if (largest_energy > 0.)
-        instant.energy_balance = (energy + dissipated_energy - energy_at_start -
-                                  motion.work) /
-                                 largest_energy;
-      energy_drift = std::max(energy_drift, std::abs(instant.energy_balance));
-      instant.state = state;
-      on_instant(instant);
-    };
-    if (is_fresh)
-      at_instant({0});
-
-    std::unique_ptr<Solvers::ImplicitMotion<dim>> by_newton;
-    if (!is_explicit)
-      by_newton =
-        std::make_unique<Solvers::ImplicitMotion<dim>>(*method.problem,
-                                                       *method.equilibrium,
-                                                       forces,
-                                                       node_mass,
-                                                       time.spectral_radius);
-    std::unique_ptr<Base::Progress> bar;
-    for (unsigned int number = progress.number + 1; number <= times.size();
-         ++number)
+  template <int dim>
+  typename Simulation<dim>::Instant
+  Simulation<dim>::make_instant(Instant                      instant,
+                                const MotionIntegrator<dim> &integrator,
+                                Method                      &method)
+  {
+    auto      &motion   = method.motion;
+    const auto forces   = integrator.forces_of(motion);
+    method.displacement = motion.displacement;
+    method.time         = motion.time;
+    instant.state = gather_motion(method, motion, forces.internal, forces.external);
+    instant.kinetic_energy =
+      Solvers::kinetic_energy<dim>(method.problem->partition(),
+                                   node_mass,
+                                   motion.velocity);
+    const double energy = instant.state.strain_energy + instant.kinetic_energy;
+    if (!std::isfinite(energy))
       {
-        const double       start = number > 1 ? times[number - 2] : 0.;
-        const double       end   = times[number - 1];
-        const unsigned int n     = steps_that_fill(end - start, longest);
-        if (!bar)
-          bar = std::make_unique<Base::Progress>(
-            log, "Time steps", n * (times.size() - progress.number));
-        Instant              instant{number};
-        Solvers::LoadStepping cuts(parameters.load_stepping);
-        for (unsigned int k = 0; k < n; ++k)
+        std::ostringstream text;
+        text << "the motion has no finite energy at t = " << motion.time;
+        throw Base::SolveError(text.str());
+      }
+    if (instant.number == 0)
+      energy_at_start = energy;
+    largest_energy = std::max({largest_energy, energy, std::abs(motion.work)});
+    if (largest_energy > 0.)
+      instant.energy_balance = (energy + dissipated_energy - switched_energy -
+                                energy_at_start - motion.work) /
+                               largest_energy;
+    energy_drift = std::max(energy_drift, std::abs(instant.energy_balance));
+    return instant;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::follow_motion(Method &method, const OnInstant &on_instant)
+  {
+    // Broken bonds may shorten stable steps: how often that is looked at.
+    constexpr unsigned int limit_interval = 100;
+
+    const bool is_explicit =
+      parameters.time_integration.scheme == TimeScheme::explicit_motion;
+    const auto times    = parameters.times();
+    auto      &motion   = method.motion;
+    node_mass           = Fem::lumped_mass(mesh->nodal(), materials.density);
+    auto       integrator = make_integrator(method);
+    const bool is_fresh   = motion.displacement.size() == 0;
+    if (is_fresh)
+      {
+        motion           = initial_motion(method);
+        stable_time_step = 0.;
+      }
+    double longest = longest_time_step(*integrator, method);
+    integrator->start(motion, is_fresh);
+    if (is_fresh)
+      on_instant(make_instant({0}, *integrator, method));
+
+    const bool breaks = parameters.growth.active && method.region.n_core > 0;
+    std::unique_ptr<Coupling::MovingBonds<dim>> bonds;
+    if (breaks)
+      bonds = make_moving_bonds(method);
+    unsigned int   unchecked = 0; ///< steps since the limit was looked at
+    bool           has_changed = false;
+    Base::Progress bar(log, "Motion", 1000);
+    const auto     renew_limit = [&]() {
+      if (!is_explicit || !has_changed)
+        return;
+      stable_time_step = 0.;
+      longest          = longest_time_step(*integrator, method);
+      has_changed      = false;
+      unchecked        = 0;
+    };
+    try
+      {
+        for (unsigned int number = progress.number + 1; number <= times.size();
+             ++number)
           {
-            const double next = start + (end - start) * (k + 1) / n;
-            if (is_explicit)
-              by_nodes.step((end - start) / n, motion);
-            else
+            const double end = times[number - 1];
+            Instant      instant{number};
+            for (unsigned int n = steps_that_fill(end - motion.time, longest);
+                 n > 0;
+                 n = motion.time < end ?
+                       steps_that_fill(end - motion.time, longest) :
+                       0)
               {
-                Solvers::NewtonRecord record;
-                const double          reached = cuts.advance(
-                  motion.time,
-                  next,
-                  [&](const double target) {
-                    record = by_newton->step(target - motion.time,
-                                             motion,
-                                             [](const auto &) {});
-                    instant.newton_iterations += record.n_iterations();
-                    instant.linear_iterations += record.linear_iterations;
-                    return record.converged;
-                  },
-                  [](double, double) {},
-                  [](double) {});
-                if (reached != next)
+                integrator->step_to(n == 1 ? end :
+                                             motion.time +
+                                               (end - motion.time) / n,
+                                    motion,
+                                    instant.newton_iterations,
+                                    instant.linear_iterations);
+                ++n_time_steps;
+                ++instant.time_steps;
+                bar.update(static_cast<std::size_t>(
+                  1000. * motion.time / parameters.end_time));
+                if (breaks)
                   {
-                    std::ostringstream text;
-                    text << "the time step to t = " << next
-                         << " did not converge: " << record.reason
-                         << ". The last state kept is in '"
-                         << parameters.output_folder << "'.";
-                    throw Base::SolveError(text.str());
+                    const auto change = break_in_motion(method, *bonds);
+                    if (change == MotionChange::region)
+                      {
+                        integrator = make_integrator(method);
+                        integrator->start(motion, false);
+                        bonds = make_moving_bonds(method);
+                      }
+                    else if (change == MotionChange::bonds)
+                      integrator->forget_tangent();
+                    has_changed = has_changed || change != MotionChange::none;
+                    if (++unchecked >= limit_interval)
+                      renew_limit();
                   }
               }
-            motion.time = next;
-            ++n_time_steps;
-            ++instant.time_steps;
-            bar->update(n_time_steps);
+            renew_limit();
+            on_instant(make_instant(instant, *integrator, method));
           }
-        at_instant(instant);
+      }
+    catch (const Base::SolveError &error)
+      {
+        std::ostringstream text;
+        text << "time step " << n_time_steps + 1 << " from t = " << motion.time
+             << ": " << error.what() << ". The last state kept is in '"
+             << parameters.output_folder << "'.";
+        throw Base::SolveError(text.str());
       }
   }
 
@@ -353,6 +384,11 @@ namespace Perimorph::Application
       result->set("counts", "time_steps", n_time_steps);
       result->set("checks", "energy_balance", instant.energy_balance);
       result->set("checks", "energy_drift", energy_drift);
+      if (parameters.growth.active)
+        {
+          result->set("counts", "events", n_events);
+          result->set("counts", "bonds_broken_in_events", broken.size());
+        }
       const bool is_last = instant.number == parameters.n_steps;
       if (instant.number == 0 || is_last ||
           state.time >= field_time + time.field_interval * (1. - 1e-9))
@@ -397,6 +433,12 @@ namespace Perimorph::Application
     const Solvers::MotionState &,                                            \
     const Fem::Vector &,                                                     \
     const Fem::Vector &) const;                                              \
+  template std::unique_ptr<MotionIntegrator<dim>>                            \
+  Simulation<dim>::make_integrator(Method &);                                \
+  template double Simulation<dim>::longest_time_step(                        \
+    const MotionIntegrator<dim> &, const Method &);                          \
+  template Simulation<dim>::Instant Simulation<dim>::make_instant(           \
+    Instant, const MotionIntegrator<dim> &, Method &);                       \
   template void Simulation<dim>::follow_motion(Method &, const OnInstant &); \
   template void Simulation<dim>::integrate_in_time(Method &);
 

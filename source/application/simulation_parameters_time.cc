@@ -74,6 +74,19 @@ namespace Perimorph::Application
                            "Events scale the loads of equilibrium.");
     if (!time.has_inertia())
       return;
+    if (growth.bonds && growth.hand_over)
+      errors.add_parameter("Cracks / hand over length",
+                           "'" + texts.hand_over_length + "' with scheme '" +
+                             texts.scheme + "'",
+                           "never",
+                           "Segments advance in equilibrium.");
+    if (growth.bonds &&
+        growth.criterion == Damage::Criterion::critical_energy)
+      errors.add_parameter("Cracks / criterion",
+                           "'critical energy' with scheme '" + texts.scheme +
+                             "'",
+                           "critical stretch, or one of stress or strain",
+                           "The energy of bonds is not followed in time.");
     if (coupling.scheme == Coupling::Scheme::force_blending)
       errors.add_parameter("Peridynamics / coupling",
                            "'force blending' with scheme '" + texts.scheme +

@@ -64,6 +64,20 @@ namespace Perimorph::Coupling
   }
 
   template <int dim, Kinematics kinematics>
+  std::vector<std::array<unsigned int, 2>>
+  BondTerm<dim, kinematics>::pairs(
+    const Fem::NodePartition<dim> &partition) const
+  {
+    std::vector<std::array<unsigned int, 2>> list;
+    list.reserve(neighbor.size());
+    for (const Star &star : stars)
+      for (std::size_t b = star.begin; b < star.end; ++b)
+        list.push_back(
+          {{partition.global(star.node), partition.global(neighbor[b])}});
+    return list;
+  }
+
+  template <int dim, Kinematics kinematics>
   std::string
   BondTerm<dim, kinematics>::name() const
   {
@@ -220,6 +234,7 @@ namespace Perimorph::Coupling
                                 const Fem::NodePartition<dim> &partition,
                                 const BondCoupling<dim>       &coupling)
     : partition(partition)
+    , cells(coupling.cells)
     , tensors(coupling.tensors)
   {
     for (const unsigned int c : coupling.cells)
@@ -228,6 +243,23 @@ namespace Perimorph::Coupling
         for (unsigned int v = 0; v < n_nodes; ++v)
           nodes.back()[v] = partition.local(mesh.cells[c][v]);
       }
+  }
+
+  template <int dim>
+  void
+  SegmentTerm<dim>::remove(const std::vector<bool> &goes)
+  {
+    std::size_t n_left = 0;
+    for (std::size_t k = 0; k < cells.size(); ++k)
+      if (!goes[cells[k]])
+        {
+          cells[n_left]     = cells[k];
+          nodes[n_left]     = nodes[k];
+          tensors[n_left++] = tensors[k];
+        }
+    cells.resize(n_left);
+    nodes.resize(n_left);
+    tensors.resize(n_left);
   }
 
   template <int dim>

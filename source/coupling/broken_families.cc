@@ -75,6 +75,78 @@ namespace Perimorph::Coupling
   } // namespace
 
   template <int dim>
+  bool
+  break_family(const Mesh::NodalMesh<dim>         &mesh,
+               const std::vector<double>          &horizon,
+               const FamilyParameters             &parameters,
+               const Bonds::BrokenBonds           &broken,
+               const Peridynamics::FamilySet<dim> &families,
+               const std::size_t                   p,
+               Peridynamics::FamilySet<dim>       &set)
+  {
+    const unsigned int node = families.node[p];
+    const auto begin  = set.neighbor.size();
+    bool       softer = false;
+    for (std::size_t b = families.offsets[p]; b < families.offsets[p + 1];
+         ++b)
+      if (!broken.contains(node, families.neighbor[b]))
+        {
+          const double share =
+            broken.share_left(node, families.neighbor[b]);
+          softer = softer || share < 1.;
+          set.neighbor.push_back(families.neighbor[b]);
+          set.gradient_weight.push_back(share *
+                                        families.gradient_weight[b]);
+          set.bond_weight.push_back(families.bond_weight[b]);
+        }
+    const bool is_whole =
+      !softer && set.neighbor.size() - begin ==
+                   families.offsets[p + 1] - families.offsets[p];
+    const Bonds::ParticleSeed particle{node, families.material[p]};
+    if (is_whole)
+      {
+        set.node.push_back(node);
+        set.material.push_back(particle.material);
+        set.weight.push_back(families.weight[p]);
+        set.stabilization.push_back(families.stabilization[p]);
+        set.offsets.push_back(set.neighbor.size());
+        return true;
+      }
+    // The weights of the bending scale are those of another family.
+    dealii::Tensor<2, dim> K, rest;
+    for (int d = 0; d < dim; ++d)
+      rest[d][d] = 1.;
+    for (std::size_t b = begin; b < set.neighbor.size(); ++b)
+      {
+        set.bond_weight[b] = broken.share_left(node, set.neighbor[b]) *
+                             bond_weight(mesh,
+                                         node,
+                                         set.neighbor[b],
+                                         horizon[node],
+                                         parameters.influence);
+        const dealii::Tensor<1, dim> xi =
+          mesh.nodes[set.neighbor[b]] - mesh.nodes[node];
+        K += set.bond_weight[b] * outer_product(xi, xi);
+        rest -= outer_product(set.gradient_weight[b], xi);
+      }
+    if (!is_regular(K))
+      {
+        set.neighbor.resize(begin);
+        set.gradient_weight.resize(begin);
+        set.bond_weight.resize(begin);
+        return false;
+      }
+    const auto inverse = invert(K);
+    for (std::size_t b = begin; b < set.neighbor.size(); ++b)
+      set.gradient_weight[b] +=
+        set.bond_weight[b] *
+        (rest *
+         (inverse * (mesh.nodes[set.neighbor[b]] - mesh.nodes[node])));
+    close_row(particle, families.weight[p], parameters, inverse, set);
+    return true;
+  }
+
+  template <int dim>
   Peridynamics::FamilySet<dim>
   break_bonds(const Mesh::NodalMesh<dim>         &mesh,
               const std::vector<double>          &horizon,
@@ -97,66 +169,9 @@ namespace Perimorph::Coupling
         if (broken.count(node) == 0)
           continue;
         copy_rows(families, first_whole, p, set);
-        first_whole       = p + 1;
-        const auto begin  = set.neighbor.size();
-        bool       softer = false;
-        for (std::size_t b = families.offsets[p]; b < families.offsets[p + 1];
-             ++b)
-          if (!broken.contains(node, families.neighbor[b]))
-            {
-              const double share =
-                broken.share_left(node, families.neighbor[b]);
-              softer = softer || share < 1.;
-              set.neighbor.push_back(families.neighbor[b]);
-              set.gradient_weight.push_back(share *
-                                            families.gradient_weight[b]);
-              set.bond_weight.push_back(families.bond_weight[b]);
-            }
-        const bool is_whole =
-          !softer && set.neighbor.size() - begin ==
-                       families.offsets[p + 1] - families.offsets[p];
-        const Bonds::ParticleSeed particle{node, families.material[p]};
-        if (is_whole)
-          {
-            set.node.push_back(node);
-            set.material.push_back(particle.material);
-            set.weight.push_back(families.weight[p]);
-            set.stabilization.push_back(families.stabilization[p]);
-            set.offsets.push_back(set.neighbor.size());
-            continue;
-          }
-        // The weights of the bending scale are those of another family.
-        dealii::Tensor<2, dim> K, rest;
-        for (int d = 0; d < dim; ++d)
-          rest[d][d] = 1.;
-        for (std::size_t b = begin; b < set.neighbor.size(); ++b)
-          {
-            set.bond_weight[b] = broken.share_left(node, set.neighbor[b]) *
-                                 bond_weight(mesh,
-                                             node,
-                                             set.neighbor[b],
-                                             horizon[node],
-                                             parameters.influence);
-            const dealii::Tensor<1, dim> xi =
-              mesh.nodes[set.neighbor[b]] - mesh.nodes[node];
-            K += set.bond_weight[b] * outer_product(xi, xi);
-            rest -= outer_product(set.gradient_weight[b], xi);
-          }
-        if (!is_regular(K))
-          {
-            ++n_isolated;
-            set.neighbor.resize(begin);
-            set.gradient_weight.resize(begin);
-            set.bond_weight.resize(begin);
-            continue;
-          }
-        const auto inverse = invert(K);
-        for (std::size_t b = begin; b < set.neighbor.size(); ++b)
-          set.gradient_weight[b] +=
-            set.bond_weight[b] *
-            (rest *
-             (inverse * (mesh.nodes[set.neighbor[b]] - mesh.nodes[node])));
-        close_row(particle, families.weight[p], parameters, inverse, set);
+        first_whole = p + 1;
+        if (!break_family(mesh, horizon, parameters, broken, families, p, set))
+          ++n_isolated;
       }
     copy_rows(families, first_whole, families.n_particles(), set);
     return set;
@@ -231,6 +246,14 @@ namespace Perimorph::Coupling
     const Bonds::BrokenBonds &,                           \
     const Peridynamics::FamilySet<dim> &,                 \
     std::size_t &);                                       \
+  template bool break_family<dim>(                        \
+    const Mesh::NodalMesh<dim> &,                         \
+    const std::vector<double> &,                          \
+    const FamilyParameters &,                             \
+    const Bonds::BrokenBonds &,                           \
+    const Peridynamics::FamilySet<dim> &,                 \
+    std::size_t,                                          \
+    Peridynamics::FamilySet<dim> &);                      \
   template std::vector<unsigned int> find_parts<dim>(     \
     const Mesh::NodalMesh<dim> &,                         \
     const std::vector<double> &,                          \

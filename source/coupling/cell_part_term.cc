@@ -18,6 +18,27 @@ namespace Perimorph::Coupling
   }
 
   template <int dim>
+  void
+  CellPartTerm<dim>::remove(
+    const std::function<bool(unsigned int, const std::vector<unsigned int> &)>
+      &goes)
+  {
+    std::size_t n_left = 0;
+    for (std::size_t p = 0; p < parts.size(); ++p)
+      if (!goes(parts[p].cell, parts[p].nodes))
+        {
+          if (n_left != p)
+            {
+              parts[n_left]   = std::move(parts[p]);
+              tensors[n_left] = tensors[p];
+            }
+          ++n_left;
+        }
+    parts.resize(n_left);
+    tensors.resize(n_left);
+  }
+
+  template <int dim>
   std::string
   CellPartTerm<dim>::name() const
   {

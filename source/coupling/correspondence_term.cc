@@ -14,7 +14,9 @@ namespace Perimorph::Coupling
     : families(std::move(families_))
     , materials(materials)
   {
-    sort_bonds();
+    n_gradient_bonds.resize(families.n_particles());
+    for (unsigned int p = 0; p < families.n_particles(); ++p)
+      sort_bonds(p);
     for (auto &node : families.node)
       node = partition.local(node);
     for (auto &node : families.neighbor)
@@ -35,40 +37,69 @@ namespace Perimorph::Coupling
 
   template <int dim>
   void
-  CorrespondenceTerm<dim>::sort_bonds()
+  CorrespondenceTerm<dim>::sort_bonds(const unsigned int particle)
   {
     const auto has_gradient = [](const dealii::Tensor<1, dim> &weight) {
       return weight.norm_square() > 0.;
     };
-    std::vector<std::size_t> order;
-    const auto reorder = [&](auto &list, const std::size_t first) {
-      const auto row =
-        std::vector(list.begin() + first, list.begin() + first + order.size());
-      for (std::size_t k = 0; k < order.size(); ++k)
-        list[first + k] = row[order[k]];
-    };
-    for (std::size_t p = 0; p < families.n_particles(); ++p)
+    const std::size_t first = families.offsets[particle];
+    const auto        begin = families.gradient_weight.begin() + first;
+    const auto        end =
+      families.gradient_weight.begin() + families.offsets[particle + 1];
+    // Gradients over the horizon have nothing to move.
+    if (!std::is_partitioned(begin, end, has_gradient))
       {
-        const std::size_t first = families.offsets[p];
-        const auto        begin = families.gradient_weight.begin() + first;
-        const auto        end =
-          families.gradient_weight.begin() + families.offsets[p + 1];
-        // Gradients over the horizon have nothing to move.
-        if (!std::is_partitioned(begin, end, has_gradient))
-          {
-            order.resize(end - begin);
-            std::iota(order.begin(), order.end(), 0);
-            std::stable_partition(
-              order.begin(),
-              order.end(),
-              [&](const std::size_t k) { return has_gradient(begin[k]); });
-            reorder(families.neighbor, first);
-            reorder(families.bond_weight, first);
-            reorder(families.gradient_weight, first);
-          }
-        n_gradient_bonds.push_back(
-          std::partition_point(begin, end, has_gradient) - begin);
+        std::vector<std::size_t> order(end - begin);
+        std::iota(order.begin(), order.end(), 0);
+        std::stable_partition(order.begin(),
+                              order.end(),
+                              [&](const std::size_t k) {
+                                return has_gradient(begin[k]);
+                              });
+        const auto reorder = [&](auto &list) {
+          const auto row = std::vector(list.begin() + first,
+                                       list.begin() + first + order.size());
+          for (std::size_t k = 0; k < order.size(); ++k)
+            list[first + k] = row[order[k]];
+        };
+        reorder(families.neighbor);
+        reorder(families.bond_weight);
+        reorder(families.gradient_weight);
       }
+    n_gradient_bonds[particle] =
+      std::partition_point(begin, end, has_gradient) - begin;
+  }
+
+  template <int dim>
+  void
+  CorrespondenceTerm<dim>::replace_family(
+    const unsigned int                  particle,
+    const Peridynamics::FamilySet<dim> &remains,
+    const bool                          is_isolated,
+    const Fem::NodePartition<dim>      &partition)
+  {
+    const std::size_t last  = remains.n_particles() - 1;
+    const std::size_t from  = is_isolated ? 0 : remains.offsets[last];
+    const std::size_t n     = is_isolated ? 0 : remains.offsets[last + 1] - from;
+    const std::size_t first = families.offsets[particle];
+    if (is_isolated)
+      families.weight[particle] = 0.;
+    else
+      families.stabilization[particle] = remains.stabilization[last];
+    // Bonds to itself without weights fill the places of the broken ones.
+    for (std::size_t b = first; b < families.offsets[particle + 1]; ++b)
+      {
+        const bool is_left   = b - first < n;
+        const auto k         = from + (b - first);
+        families.neighbor[b] = is_left ? partition.local(remains.neighbor[k]) :
+                                         families.node[particle];
+        families.bond_weight[b] = is_left ? remains.bond_weight[k] : 0.;
+        families.gradient_weight[b] =
+          is_left ? remains.gradient_weight[k] : dealii::Tensor<1, dim>();
+      }
+    sort_bonds(particle);
+    for (std::size_t b = first; b < families.offsets[particle + 1]; ++b)
+      xi[b] = partition.position(families.neighbor[b]) - position[particle];
   }
 
   template <int dim>

@@ -138,6 +138,28 @@ namespace Perimorph::Coupling
   } // namespace
 
   template <int dim>
+  FamilyParameters
+  family_parameters(const CouplingParameters   &parameters,
+                    const Mesh::NodalMesh<dim> &mesh,
+                    const Mesh::RegionMap      &region,
+                    const typename Fem::ElasticCells<dim>::MaterialList &laws)
+  {
+    FamilyParameters options{
+      influence_function_of(parameters, mesh, region),
+      parameters.gamma,
+      parameters.scale.value_or(dim == 3 && has_wide_gradients(parameters)
+                                  ? StabilizationScale::shear_modulus
+                                  : StabilizationScale::bending),
+      parameters.support,
+      parameters.crack_rule,
+      {},
+      {}};
+    for (const auto &law : laws)
+      options.constants.push_back(constants_at_rest(*law));
+    return options;
+  }
+
+  template <int dim>
   CoupledProblem<dim>::CoupledProblem(const Mesh::DistributedMesh<dim> &mesh,
                                       const Mesh::RegionMap            &region,
                                       const BodyMaterials<dim>   &materials,
@@ -197,18 +219,9 @@ namespace Perimorph::Coupling
   {
     const auto      &nodal  = mesh.nodal();
     const bool       forces = parameters.scheme == Scheme::force_blending;
-    FamilyParameters options{
-      influence_function_of(parameters, nodal, region),
-      parameters.gamma,
-      parameters.scale.value_or(dim == 3 && has_wide_gradients(parameters)
-                                  ? StabilizationScale::shear_modulus
-                                  : StabilizationScale::bending),
-      parameters.support,
-      parameters.crack_rule,
-      {},
-      progress};
-    for (const auto &law : materials.laws)
-      options.constants.push_back(constants_at_rest(*law));
+    auto             options =
+      family_parameters(parameters, nodal, region, materials.laws);
+    options.progress = progress;
 
     IntactBonds<dim>             found;
     const bool                   is_known = parts_to_share.intact != nullptr;
@@ -478,6 +491,11 @@ namespace Perimorph::Coupling
                            const Mesh::RegionMap &);
 
 #define PERIMORPH_INSTANTIATE(dim)              \
+  template FamilyParameters family_parameters<dim>( \
+    const CouplingParameters &,                 \
+    const Mesh::NodalMesh<dim> &,               \
+    const Mesh::RegionMap &,                    \
+    const typename Fem::ElasticCells<dim>::MaterialList &); \
   template CoupledProblem<dim>::CoupledProblem( \
     const Mesh::DistributedMesh<dim> &,         \
     const Mesh::RegionMap &,                    \

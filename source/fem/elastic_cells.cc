@@ -1,6 +1,8 @@
 #include <perimorph/fem/elastic_cells.h>
 #include <perimorph/materials/extrapolated_stress.h>
 
+#include <algorithm>
+
 namespace Perimorph::Fem
 {
   template <int dim>
@@ -18,6 +20,7 @@ namespace Perimorph::Fem
           continue;
         Cell cell;
         cell.material   = mesh.cell_material[c];
+        cell.number     = c;
         bool has_weight = false;
         for (unsigned int q = 0; q < n_nodes; ++q)
           {
@@ -34,6 +37,19 @@ namespace Perimorph::Fem
           cell.nodes[v] = partition.local(mesh.cells[c][v]);
         cells.push_back(cell);
       }
+  }
+
+  template <int dim>
+  void
+  ElasticCells<dim>::remove(const std::vector<bool> &goes)
+  {
+    cells.erase(std::remove_if(cells.begin(),
+                               cells.end(),
+                               [&](const Cell &cell) {
+                                 return goes[cell.number];
+                               }),
+                cells.end());
+    forget_stress();
   }
 
   template <int dim>

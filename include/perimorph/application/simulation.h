@@ -1,8 +1,10 @@
 #pragma once
 
+#include <perimorph/application/motion_integrator.h>
 #include <perimorph/application/post_processing.h>
 #include <perimorph/base/timing.h>
 #include <perimorph/bonds/broken_bonds.h>
+#include <perimorph/coupling/moving_bonds.h>
 #include <perimorph/damage/breaking_rule.h>
 #include <perimorph/fem/rigid_motion.h>
 #include <perimorph/fracture/crack_tips.h>
@@ -230,6 +232,35 @@ namespace Perimorph::Application
     /// @throws Base::SolveError
     void
     follow_motion(Method &method, const OnInstant &on_instant);
+    std::unique_ptr<MotionIntegrator<dim>>
+    make_integrator(Method &method);
+    /// Finds the stability limit first if it is not known.
+    double
+    longest_time_step(const MotionIntegrator<dim> &integrator,
+                      const Method                &method);
+    /// The state of a method with its energies.
+    Instant
+    make_instant(Instant                      instant,
+                 const MotionIntegrator<dim> &integrator,
+                 Method                      &method);
+    std::unique_ptr<Coupling::MovingBonds<dim>>
+    make_moving_bonds(Method &method) const;
+    enum class MotionChange
+    {
+      none,
+      bonds, ///< the problem lost bonds
+      region ///< the method is another one
+    };
+    /// Breaks the bonds that the state of a motion overloads; the core grows
+    /// where they are not in it.
+    MotionChange
+    break_in_motion(Method &method, Coupling::MovingBonds<dim> &bonds);
+    /// The same state with room for more bonds in the core.
+    /// @throws Base::SolveError  it cannot grow there
+    void
+    grow_core_in_motion(
+      Method                                         &method,
+      const std::vector<std::array<unsigned int, 2>> &bonds);
     Solvers::MotionState
     initial_motion(const Method &method) const;
     /// The run of a body that moves: tables, fields, checkpoints.

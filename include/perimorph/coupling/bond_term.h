@@ -35,6 +35,17 @@ namespace Perimorph::Coupling
 
     BondTerm(const BondSet &bonds, const Fem::NodePartition<dim> &partition);
 
+    /// Global nodes of all bonds of this rank, in their order here.
+    std::vector<std::array<unsigned int, 2>>
+    pairs(const Fem::NodePartition<dim> &partition) const;
+
+    /// Leaves a bond this part of its stiffness.
+    void
+    soften(const std::size_t bond, const double factor)
+    {
+      stiffness[bond] *= factor;
+    }
+
     std::string
     name() const override;
     bool
@@ -94,6 +105,10 @@ namespace Perimorph::Coupling
                 const Fem::NodePartition<dim> &partition,
                 const BondCoupling<dim>       &coupling);
 
+    /// Leaves out cells, by their numbers in the mesh.
+    void
+    remove(const std::vector<bool> &goes);
+
     std::string
     name() const override;
     bool
@@ -130,6 +145,7 @@ namespace Perimorph::Coupling
            const double                  *vector) const;
 
     const Fem::NodePartition<dim>                 &partition;
+    std::vector<unsigned int>                      cells; ///< of the mesh
     std::vector<std::array<unsigned int, n_nodes>> nodes;
     std::vector<PointTensors>                      tensors;
   };

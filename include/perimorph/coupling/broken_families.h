@@ -30,6 +30,20 @@ namespace Perimorph::Coupling
               const Peridynamics::FamilySet<dim> &families,
               std::size_t                        &n_isolated);
 
+  /// The same for one family.
+  /// @param particle  of the families
+  /// @param set       gets it as its last row
+  /// @return  false, and no row, if it loses its weight
+  template <int dim>
+  bool
+  break_family(const Mesh::NodalMesh<dim>         &mesh,
+               const std::vector<double>          &horizon,
+               const FamilyParameters             &parameters,
+               const Bonds::BrokenBonds           &broken,
+               const Peridynamics::FamilySet<dim> &families,
+               std::size_t                         particle,
+               Peridynamics::FamilySet<dim>       &set);
+
   /// Parts of the body that nothing holds together: number of the part of each
   /// node, the part of node 0 first; the same on all ranks.
   /// @param families  of this rank with global nodes

@@ -4,6 +4,8 @@
 #include <perimorph/coupling/segment_residual.h>
 #include <perimorph/fem/contribution.h>
 
+#include <functional>
+
 namespace Perimorph::Coupling
 {
   /// Energy of the parts of cells that cracks touch, at small strain:
@@ -19,6 +21,12 @@ namespace Perimorph::Coupling
     CellPartTerm(const Fem::NodePartition<dim>         &partition,
                  std::vector<CellPart<dim>>             parts,
                  std::vector<FullySymmetricTensor<dim>> tensors);
+
+    /// Leaves out parts.
+    /// @param goes  by number of the cell in the mesh and local nodes
+    void
+    remove(const std::function<bool(unsigned int,
+                                    const std::vector<unsigned int> &)> &goes);
 
     std::string
     name() const override;

@@ -26,6 +26,15 @@ namespace Perimorph::Coupling
     Peridynamics::FamilySet<dim>
     global_families(const Fem::NodePartition<dim> &partition) const;
 
+    /// Gives a particle what is left of its family: no bonds, it has lost its
+    /// weight.
+    /// @param remains  with global nodes; its last row, unless `is_isolated`
+    void
+    replace_family(unsigned int                        particle,
+                   const Peridynamics::FamilySet<dim> &remains,
+                   bool                                is_isolated,
+                   const Fem::NodePartition<dim>      &partition);
+
     std::string
     name() const override;
     bool
@@ -73,9 +82,9 @@ namespace Perimorph::Coupling
             const dealii::Tensor<1, dim> *forces,
             double                       *vector) const;
 
-    /// Moves the bonds of each family without a gradient weight to its end.
+    /// Moves the bonds of a family without a gradient weight to its end.
     void
-    sort_bonds();
+    sort_bonds(unsigned int particle);
 
     Peridynamics::FamilySet<dim>        families;         ///< local nodes
     std::vector<unsigned int>           n_gradient_bonds; ///< per particle

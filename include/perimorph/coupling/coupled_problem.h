@@ -69,6 +69,14 @@ namespace Perimorph::Coupling
                         const Mesh::NodalMesh<dim> &mesh,
                         const Mesh::RegionMap      &region);
 
+  /// What families are built from.
+  template <int dim>
+  FamilyParameters
+  family_parameters(const CouplingParameters   &parameters,
+                    const Mesh::NodalMesh<dim> &mesh,
+                    const Mesh::RegionMap      &region,
+                    const typename Fem::ElasticCells<dim>::MaterialList &laws);
+
   /// The materials of the body: laws for elements and families, constants for
   /// bonds; index = NodalMesh::cell_material.
   template <int dim>
@@ -223,6 +231,18 @@ namespace Perimorph::Coupling
     /// Families of this rank with global nodes; empty without families.
     Peridynamics::FamilySet<dim>
     correspondence_families() const;
+
+    /// The term of a type, to be changed in place where bonds break; null if
+    /// there is none.
+    template <typename SomeTerm>
+    SomeTerm *
+    find_term() const
+    {
+      for (const auto &term : contributions)
+        if (const auto found = dynamic_cast<SomeTerm *>(term.get()))
+          return found;
+      return nullptr;
+    }
 
     /// Bonds of the bond-based model that this rank owns, with what stiffness
     /// they have left; empty with the correspondence model.

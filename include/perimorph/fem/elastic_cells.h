@@ -27,6 +27,10 @@ namespace Perimorph::Fem
                  const std::vector<double>  &element_weight,
                  const std::vector<bool>    &skip = {});
 
+    /// Leaves out cells, by their numbers in the mesh.
+    void
+    remove(const std::vector<bool> &goes);
+
     /// Weights the energy of the cells once more.
     /// @param factors  one per block
     void
@@ -67,6 +71,7 @@ namespace Perimorph::Fem
       std::array<unsigned int, n_nodes> nodes;   ///< local nodes
       std::array<double, n_nodes>       weights; ///< at the quadrature points
       unsigned int                      material;
+      unsigned int                      number; ///< in the mesh
     };
 
     Mesh::CellGeometry<dim>

@@ -107,6 +107,13 @@ namespace Perimorph::Solvers
                    double        first_step,
                    const Report &report);
 
+    /// The stiffness has changed.
+    void
+    forget_tangent()
+    {
+      linear_solver.reset();
+    }
+
     /// Forces of the last state evaluated; owned entries.
     const Vector &
     internal_forces() const

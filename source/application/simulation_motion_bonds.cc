@@ -1,0 +1,156 @@
+#include <perimorph/application/simulation.h>
+#include <perimorph/base/log.h>
+#include <perimorph/fem/nodal_values.h>
+
+namespace Perimorph::Application
+{
+  template <int dim>
+  std::unique_ptr<Coupling::MovingBonds<dim>>
+  Simulation<dim>::make_moving_bonds(Method &method) const
+  {
+    const Coupling::MotionDamage damage{
+      *breaking_rule,
+      Damage::sees_particles(parameters.growth.criterion),
+      is_protected,
+      broken};
+    if (parameters.coupling.model == Coupling::Model::bond_based)
+      return Coupling::make_moving_pairs<dim>(
+        *mesh, method.region, materials, damage, *method.problem);
+    return Coupling::make_moving_families<dim>(
+      *mesh,
+      method.region,
+      materials,
+      Coupling::family_parameters<dim>(parameters.coupling,
+                                       mesh->nodal(),
+                                       method.region,
+                                       materials.laws),
+      damage,
+      *method.problem);
+  }
+
+  template <int dim>
+  typename Simulation<dim>::MotionChange
+  Simulation<dim>::break_in_motion(Method                     &method,
+                                   Coupling::MovingBonds<dim> &bonds)
+  {
+    const auto timer = timing.scope("damage");
+    auto      &u     = method.motion.displacement;
+    u.update_ghost_values();
+    const auto displacement =
+      Fem::to_nodal_values(u, method.problem->partition());
+    const auto found = bonds.overloaded(displacement);
+    if (found.nodes.empty())
+      {
+        u.zero_out_ghost_values();
+        return MotionChange::none;
+      }
+    if (!found.outside_core.empty())
+      {
+        u.zero_out_ghost_values();
+        grow_core_in_motion(method, found.outside_core);
+        // The next step breaks what is still overloaded.
+        return MotionChange::region;
+      }
+    if (!broken_table)
+      {
+        std::vector<std::string> columns = {"event", "step", "time"};
+        for (const std::string end : {"1", "2"})
+          for (int d = 0; d < dim; ++d)
+            columns.push_back(std::string(1, "xyz"[d]) + end);
+        columns.push_back("share_left");
+        broken_table = &open_table("broken_bonds.csv", columns);
+      }
+    ++n_events;
+    const double before = method.problem->strain_energy(u);
+    for (const auto &bond : found.nodes)
+      {
+        broken.add(bond[0], bond[1], n_events);
+        std::vector<Output::CsvCell> row = {n_events,
+                                            n_time_steps,
+                                            method.motion.time};
+        for (const unsigned int n : bond)
+          for (int d = 0; d < dim; ++d)
+            row.push_back(mesh->nodal().nodes[n][d]);
+        row.push_back(broken.share_left(bond[0], bond[1]));
+        broken_table->write_row(row);
+      }
+    bonds.take_away(found.nodes);
+    dissipated_energy += before - method.problem->strain_energy(u);
+    u.zero_out_ghost_values();
+    return MotionChange::bonds;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::grow_core_in_motion(
+    Method                                         &method,
+    const std::vector<std::array<unsigned int, 2>> &bonds)
+  {
+    // Room for many steps: each growth builds the problem anew.
+    constexpr double margin = 2.;
+
+    auto wider          = parameters.region;
+    wider.may_fill_body = true;
+    wider.core_size.value *= margin;
+    for (const auto &bond : bonds)
+      {
+        Parameters::Feature feature;
+        feature.kind = Parameters::FeatureKind::segment;
+        for (const unsigned int n : bond)
+          for (int d = 0; d < dim; ++d)
+            feature.numbers.push_back(mesh->nodal().nodes[n][d]);
+        wider.features.push_back(feature);
+      }
+    auto next  = make_region_map(*mesh, wider);
+    auto alpha = next.alpha;
+    for (unsigned int n = 0; n < alpha.size(); ++n)
+      alpha[n] = std::max(alpha[n], method.region.alpha[n]);
+    if (alpha == method.region.alpha)
+      throw Base::SolveError(
+        "bonds would break where elements carry a part, and the core cannot "
+        "grow there: use a larger 'Peridynamics / core size'");
+    next.set_alpha(alpha);
+
+    auto      &motion    = method.motion;
+    const auto energy_of = [](const Method &some, const Fem::Vector &vector) {
+      Fem::Vector complete(vector);
+      complete.update_ghost_values();
+      return some.problem->strain_energy(complete);
+    };
+    const double before    = energy_of(method, motion.displacement);
+    const auto  &partition = method.problem->partition();
+    const auto   displacement =
+      Fem::to_nodal_values(motion.displacement, partition);
+    const auto velocity = Fem::to_nodal_values(motion.velocity, partition);
+    const auto acceleration =
+      Fem::to_nodal_values(motion.acceleration, partition);
+    Method grown      = make_method(next, cracks);
+    grown.time        = method.time;
+    grown.motion.time = motion.time;
+    grown.motion.work = motion.work;
+    for (const auto &[values, vector] :
+         {std::make_pair(&displacement, &grown.motion.displacement),
+          std::make_pair(&velocity, &grown.motion.velocity),
+          std::make_pair(&acceleration, &grown.motion.acceleration)})
+      {
+        grown.problem->partition().initialize(*vector);
+        Fem::set_nodal_values(*values, grown.problem->partition(), *vector);
+      }
+    method = std::move(grown);
+    switched_energy += energy_of(method, motion.displacement) - before;
+    log << "  t = " << motion.time << ": the peridynamic core grows to "
+        << method.region.n_core << " nodes" << std::endl;
+  }
+
+#define PERIMORPH_INSTANTIATE(dim)                                     \
+  template std::unique_ptr<Coupling::MovingBonds<dim>>                 \
+  Simulation<dim>::make_moving_bonds(Method &) const;                  \
+  template Simulation<dim>::MotionChange                               \
+  Simulation<dim>::break_in_motion(Method &,                           \
+                                   Coupling::MovingBonds<dim> &);      \
+  template void Simulation<dim>::grow_core_in_motion(                  \
+    Method &, const std::vector<std::array<unsigned int, 2>> &);
+  PERIMORPH_INSTANTIATE(2)
+  PERIMORPH_INSTANTIATE(3)
+#undef PERIMORPH_INSTANTIATE
+} // namespace Perimorph::Application

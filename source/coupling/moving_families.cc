@@ -1,0 +1,222 @@
+#include <perimorph/base/gather.h>
+#include <perimorph/coupling/broken_families.h>
+#include <perimorph/coupling/correspondence_term.h>
+#include <perimorph/coupling/moving_bonds.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <set>
+
+namespace Perimorph::Coupling
+{
+  namespace
+  {
+    template <int dim>
+    class MovingFamilies : public MovingBonds<dim>
+    {
+    public:
+      MovingFamilies(const Mesh::DistributedMesh<dim> &mesh,
+                     const Mesh::RegionMap            &region,
+                     const BodyMaterials<dim>         &materials,
+                     const FamilyParameters           &parameters,
+                     const MotionDamage               &damage,
+                     CoupledProblem<dim>              &problem)
+        : mesh(mesh)
+        , region(region)
+        , materials(materials)
+        , parameters(parameters)
+        , damage(damage)
+        , intact(problem.shared().intact->families)
+        , partition(problem.partition())
+        , term(*problem.template find_term<CorrespondenceTerm<dim>>())
+        , current(term.global_families(partition))
+        , is_mixed(mesh.nodal().n_nodes(), false)
+        , rows(mesh.nodal().n_nodes())
+        , intact_rows(mesh.nodal().n_nodes())
+      {
+        const auto                              &nodal = mesh.nodal();
+        std::vector<std::array<unsigned int, 2>> pairs;
+        for (std::size_t p = 0; p < current.n_particles(); ++p)
+          for (std::size_t b = current.offsets[p]; b < current.offsets[p + 1];
+               ++b)
+            pairs.push_back({{current.node[p], current.neighbor[b]}});
+        in_core = nodes_in_core(region.alpha, pairs);
+        // Families of other ranks know more.
+        std::vector<unsigned int> here(in_core.begin(), in_core.end()),
+          everywhere = here;
+        dealii::Utilities::MPI::min(here, mesh.communicator(), everywhere);
+        in_core.assign(everywhere.begin(), everywhere.end());
+        for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
+          for (const unsigned int c : nodal.node_cells.row(n))
+            is_mixed[n] = is_mixed[n] ||
+                          nodal.cell_material[c] !=
+                            nodal.cell_material[*nodal.node_cells.row(n).begin()];
+        for (std::size_t p = 0; p < current.n_particles(); ++p)
+          rows[current.node[p]].push_back(p);
+        for (std::size_t p = 0; p < intact.n_particles(); ++p)
+          intact_rows[intact.node[p]].push_back(p);
+      }
+
+      OverloadedBonds
+      overloaded(
+        const std::vector<dealii::Tensor<1, dim>> &displacement) override
+      {
+        const auto &nodal = mesh.nodal();
+        std::vector<ParticleState> states;
+        std::vector<bool>          may_fail;
+        if (damage.sees_particles)
+          {
+            states = particle_states(nodal,
+                                     current,
+                                     materials.laws,
+                                     displacement,
+                                     mesh.communicator());
+            may_fail.resize(states.size());
+            for (unsigned int n = 0; n < states.size(); ++n)
+              may_fail[n] = states[n].exists && fails_alone(n, states[n]);
+          }
+        std::vector<std::array<unsigned int, 2>> found;
+        for (std::size_t p = 0; p < current.n_particles(); ++p)
+          {
+            const unsigned int i = current.node[p];
+            if (damage.is_protected[i])
+              continue;
+            for (std::size_t b = current.offsets[p]; b < current.offsets[p + 1];
+                 ++b)
+              {
+                const unsigned int j = current.neighbor[b];
+                if (j == i || damage.is_protected[j] ||
+                    (damage.sees_particles && !may_fail[i] && !may_fail[j]))
+                  continue;
+                // The same arguments in the families of both ends.
+                const unsigned int           first  = std::min(i, j);
+                const unsigned int           second = std::max(i, j);
+                const dealii::Tensor<1, dim> eta =
+                  displacement[second] - displacement[first];
+                const dealii::Tensor<1, dim> xi =
+                  nodal.nodes[second] - nodal.nodes[first];
+                if (!damage.sees_particles && !(xi * eta > 0.))
+                  continue;
+                auto bond       = bond_state(nodal,
+                                       region,
+                                       materials.bond_constants,
+                                       first,
+                                       second,
+                                       eta);
+                bond.teeth_lost = damage.broken.teeth_lost(first, second);
+                if (damage.sees_particles)
+                  see_particles(states[first], states[second], xi, eta, bond);
+                if (damage.rule.load_factor(bond) <= 1.)
+                  found.push_back({{first, second}});
+              }
+          }
+        if (dealii::Utilities::MPI::n_mpi_processes(mesh.communicator()) > 1)
+          found = Base::gather_on_all(mesh.communicator(), found);
+        std::sort(found.begin(), found.end());
+        found.erase(std::unique(found.begin(), found.end()), found.end());
+        OverloadedBonds result;
+        for (const auto &bond : found)
+          if (!in_core[bond[0]] || !in_core[bond[1]])
+            result.outside_core.push_back(bond);
+        result.nodes = std::move(found);
+        return result;
+      }
+
+      void
+      take_away(const std::vector<std::array<unsigned int, 2>> &nodes) override
+      {
+        std::set<unsigned int> touched;
+        for (const auto &bond : nodes)
+          touched.insert(bond.begin(), bond.end());
+        for (const unsigned int node : touched)
+          for (const std::size_t p : rows[node])
+            for (const std::size_t k : intact_rows[node])
+              if (intact.material[k] == current.material[p])
+                replace(p, k);
+      }
+
+    private:
+      /// Whether a bond between two particles in this state would break.
+      bool
+      fails_alone(const unsigned int node, const ParticleState &state) const
+      {
+        if (is_mixed[node])
+          return true;
+        Damage::BondState bond;
+        bond.length = bond.extension = bond.energy = 1.;
+        bond.volume_product = bond.horizon = bond.horizon_ratio = 1.;
+        bond.youngs_modulus                                     = 1.;
+        dealii::Tensor<1, dim> along;
+        along[0] = 1.;
+        see_particles(state, state, along, along, bond);
+        return damage.rule.load_factor(bond) <= 1.;
+      }
+
+      void
+      replace(const std::size_t p, const std::size_t of_intact)
+      {
+        Peridynamics::FamilySet<dim> remains;
+        const bool                   is_left = break_family(mesh.nodal(),
+                                          region.horizon,
+                                          parameters,
+                                          damage.broken,
+                                          intact,
+                                          of_intact,
+                                          remains);
+        term.replace_family(p, remains, !is_left, partition);
+        const std::size_t first = current.offsets[p];
+        const std::size_t n     = is_left ? remains.n_bonds() : 0;
+        if (!is_left)
+          current.weight[p] = 0.;
+        for (std::size_t b = first; b < current.offsets[p + 1]; ++b)
+          {
+            const bool here     = b - first < n;
+            current.neighbor[b] = here ? remains.neighbor[b - first] :
+                                         current.node[p];
+            current.gradient_weight[b] =
+              here ? remains.gradient_weight[b - first] :
+                     dealii::Tensor<1, dim>();
+          }
+      }
+
+      const Mesh::DistributedMesh<dim>   &mesh;
+      const Mesh::RegionMap              &region;
+      const BodyMaterials<dim>           &materials;
+      const FamilyParameters              parameters;
+      const MotionDamage                  damage;
+      const Peridynamics::FamilySet<dim> &intact;
+      const Fem::NodePartition<dim>      &partition;
+      CorrespondenceTerm<dim>            &term;
+      Peridynamics::FamilySet<dim>        current; ///< with global nodes
+      std::vector<bool>                   in_core, is_mixed;
+      /// Of each node, in current and intact.
+      std::vector<std::vector<std::size_t>> rows, intact_rows;
+    };
+  } // namespace
+
+  template <int dim>
+  std::unique_ptr<MovingBonds<dim>>
+  make_moving_families(const Mesh::DistributedMesh<dim> &mesh,
+                       const Mesh::RegionMap            &region,
+                       const BodyMaterials<dim>         &materials,
+                       const FamilyParameters           &parameters,
+                       const MotionDamage               &damage,
+                       CoupledProblem<dim>              &problem)
+  {
+    return std::make_unique<MovingFamilies<dim>>(
+      mesh, region, materials, parameters, damage, problem);
+  }
+
+#define PERIMORPH_INSTANTIATE(dim)                        \
+  template std::unique_ptr<MovingBonds<dim>>              \
+  make_moving_families<dim>(const Mesh::DistributedMesh<dim> &, \
+                            const Mesh::RegionMap &,      \
+                            const BodyMaterials<dim> &,   \
+                            const FamilyParameters &,     \
+                            const MotionDamage &,         \
+                            CoupledProblem<dim> &);
+  PERIMORPH_INSTANTIATE(2)
+  PERIMORPH_INSTANTIATE(3)
+#undef PERIMORPH_INSTANTIATE
+} // namespace Perimorph::Coupling
