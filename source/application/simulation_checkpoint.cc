@@ -158,6 +158,9 @@ namespace Perimorph::Application
     action("largest force", largest_force);
     action("point supports checked", point_supports_checked);
     action("stable time step", stable_time_step);
+    action("announced limit", announced_limit);
+    action("limit is old", limit_is_old);
+    action("steps of limit", steps_of_limit);
     action("energy at start", energy_at_start);
     action("largest energy", largest_energy);
     action("energy drift", energy_drift);

@@ -170,11 +170,16 @@ namespace Perimorph::Application
     const bool  is_explicit = time.scheme == TimeScheme::explicit_motion;
     if (stable_time_step == 0. && (is_explicit || time.time_step == 0.))
       {
-        const auto timer = timing.scope("time_step_limit");
-        stable_time_step = integrator.stable_time_step(method.motion);
-        if (is_explicit)
-          log << "Stability limit of explicit steps at t = "
-              << method.motion.time << ": " << stable_time_step << std::endl;
+        const auto   timer   = timing.scope("time_step_limit");
+        const double earlier = announced_limit;
+        stable_time_step     = integrator.stable_time_step(method.motion);
+        if (is_explicit &&
+            std::abs(stable_time_step - earlier) > 0.01 * earlier)
+          {
+            log << "Stability limit of explicit steps at t = "
+                << method.motion.time << ": " << stable_time_step << std::endl;
+            announced_limit = stable_time_step;
+          }
       }
     if (is_explicit && time.time_step > stable_time_step)
       {
@@ -261,17 +266,7 @@ namespace Perimorph::Application
     std::unique_ptr<Coupling::MovingBonds<dim>> bonds;
     if (breaks)
       bonds = make_moving_bonds(method);
-    unsigned int   unchecked = 0; ///< steps since the limit was looked at
-    bool           has_changed = false;
     Base::Progress bar(log, "Motion", 1000);
-    const auto     renew_limit = [&]() {
-      if (!is_explicit || !has_changed)
-        return;
-      stable_time_step = 0.;
-      longest          = longest_time_step(*integrator, method);
-      has_changed      = false;
-      unchecked        = 0;
-    };
     try
       {
         for (unsigned int number = progress.number + 1; number <= times.size();
@@ -306,12 +301,18 @@ namespace Perimorph::Application
                       }
                     else if (change == MotionChange::bonds)
                       integrator->forget_tangent();
-                    has_changed = has_changed || change != MotionChange::none;
-                    if (++unchecked >= limit_interval)
-                      renew_limit();
+                    if (change != MotionChange::none)
+                      limit_is_old = true;
+                    if (++steps_of_limit >= limit_interval && is_explicit &&
+                        limit_is_old)
+                      {
+                        stable_time_step = 0.;
+                        longest      = longest_time_step(*integrator, method);
+                        limit_is_old = false;
+                        steps_of_limit = 0;
+                      }
                   }
               }
-            renew_limit();
             on_instant(make_instant(instant, *integrator, method));
           }
       }

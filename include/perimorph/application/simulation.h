@@ -526,6 +526,10 @@ namespace Perimorph::Application
     // Motion.
     std::vector<double> node_mass;
     double              stable_time_step = 0.; ///< 0: not known
+    double              announced_limit  = 0.;
+    /// Whether bonds broke since the limit was found, and how long ago.
+    bool         limit_is_old   = false;
+    unsigned int steps_of_limit = 0;
     double              energy_at_start = 0., largest_energy = 0.,
            energy_drift = 0.;
     std::size_t n_time_steps = 0;
