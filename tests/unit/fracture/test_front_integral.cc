@@ -58,7 +58,7 @@ namespace
                                  mesh,
                                  front,
                                  domain,
-                                 near_tip_constants(*materials[0]),
+                                 isotropic_constants(*materials[0]),
                                  MPI_COMM_SELF);
     }
   };
@@ -78,9 +78,9 @@ namespace
       Point3(0.03, 0.04, 0.),
       {{Point3(1., 0., 0.), Point3(0., 1., 0.), Point3(0., 0., 1.)}},
       0.};
-    const NearTipConstants constants = {shear_modulus,
-                                        3. - 4. * poissons_ratio};
-    const auto             field     = [&](const Point3 &x) {
+    const IsotropicConstants constants = {shear_modulus,
+                                          3. - 4. * poissons_ratio};
+    const auto               field     = [&](const Point3 &x) {
       return near_tip_state(NearTipField::opening, constants, frame, x)
                .displacement +
              0.5 * near_tip_state(NearTipField::sliding, constants, frame, x)
