@@ -1,4 +1,5 @@
 #include <perimorph/application/post_processing.h>
+#include <perimorph/fem/body_force.h>
 
 #include <algorithm>
 #include <cmath>
@@ -147,13 +148,20 @@ namespace Perimorph::Application
       has_slits() ||
       (parameters.coupling.model == Coupling::Model::correspondence &&
        region.n_core > 0);
-    return {{mesh.nodal(), materials.laws, state.displacement},
-            cracks,
-            region.alpha,
-            region.horizon,
-            has_families ? &families : nullptr,
-            planes,
-            has_slits()};
+    auto divergence =
+      Fem::body_force_density(mesh,
+                              parameters.boundary_conditions.body_forces,
+                              state.time);
+    for (auto &force : divergence)
+      force *= -1.;
+    return {
+      {mesh.nodal(), materials.laws, state.displacement, std::move(divergence)},
+      cracks,
+      region.alpha,
+      region.horizon,
+      has_families ? &families : nullptr,
+      planes,
+      has_slits()};
   }
 
   template <int dim>
