@@ -1,4 +1,5 @@
 #include <perimorph/application/post_processing.h>
+#include <perimorph/fem/body_force.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,24 +24,29 @@ namespace Perimorph::Application
       std::string           unit;
     };
 
+    std::optional<double>
+    existing(const bool condition, const double value)
+    {
+      return condition ? std::optional<double>(value) : std::nullopt;
+    }
+
     std::vector<TipValue>
     tip_values(const Fracture::TipQuantities &tip)
     {
-      const auto exists = [](const bool condition, const double value) {
-        return condition ? std::optional<double>(value) : std::nullopt;
-      };
       const bool room   = !tip.values.empty();
       const bool opened = tip.opening.n_places >= 3;
       const auto q = room ? tip.values.front() : Fracture::FractureQuantities();
-      return {{"_K_I", exists(room, q.K_I), factor_unit},
-              {"_K_II", exists(room, q.K_II), factor_unit},
-              {"_J", exists(room, q.J), release_unit},
-              {"_T_stress", exists(room, q.T_stress), "stress"},
-              {"_K_I_opening", exists(opened, tip.opening.K_I), factor_unit},
-              {"_K_II_opening", exists(opened, tip.opening.K_II), factor_unit},
-              {"_domain_dependence",
-               exists(tip.values.size() > 1, tip.domain_dependence()),
-               "-"}};
+      const bool factors = room && q.has_factors;
+      return {
+        {"_K_I", existing(factors, q.K_I), factor_unit},
+        {"_K_II", existing(factors, q.K_II), factor_unit},
+        {"_J", existing(room, q.J), release_unit},
+        {"_T_stress", existing(factors, q.T_stress), "stress"},
+        {"_K_I_opening", existing(opened, tip.opening.K_I), factor_unit},
+        {"_K_II_opening", existing(opened, tip.opening.K_II), factor_unit},
+        {"_domain_dependence",
+         existing(tip.values.size() > 1, tip.domain_dependence()),
+         "-"}};
     }
 
     std::vector<TipValue>
@@ -48,24 +54,22 @@ namespace Perimorph::Application
     {
       double mean = 0., low = std::numeric_limits<double>::infinity(),
              high = -low, J = 0.;
-      bool room = false;
+      bool room = false, factors = false;
       for (const auto &station : front.values)
         if (!station.empty())
           {
             const double K = station.front().K_I;
             mean += K / front.values.size();
             J += station.front().J / front.values.size();
-            low  = std::min(low, K);
-            high = std::max(high, K);
-            room = true;
+            low     = std::min(low, K);
+            high    = std::max(high, K);
+            room    = true;
+            factors = station.front().has_factors;
           }
-      const auto exists = [&](const double value) {
-        return room ? std::optional<double>(value) : std::nullopt;
-      };
-      return {{"_K_I", exists(mean), factor_unit},
-              {"_K_I_smallest", exists(low), factor_unit},
-              {"_K_I_largest", exists(high), factor_unit},
-              {"_J", exists(J), release_unit}};
+      return {{"_K_I", existing(factors, mean), factor_unit},
+              {"_K_I_smallest", existing(factors, low), factor_unit},
+              {"_K_I_largest", existing(factors, high), factor_unit},
+              {"_J", existing(room, J), release_unit}};
     }
 
     std::string
@@ -144,13 +148,20 @@ namespace Perimorph::Application
       has_slits() ||
       (parameters.coupling.model == Coupling::Model::correspondence &&
        region.n_core > 0);
-    return {{mesh.nodal(), materials.laws, state.displacement},
-            cracks,
-            region.alpha,
-            region.horizon,
-            has_families ? &families : nullptr,
-            planes,
-            has_slits()};
+    auto divergence =
+      Fem::body_force_density(mesh,
+                              parameters.boundary_conditions.body_forces,
+                              state.time);
+    for (auto &force : divergence)
+      force *= -1.;
+    return {
+      {mesh.nodal(), materials.laws, state.displacement, std::move(divergence)},
+      cracks,
+      region.alpha,
+      region.horizon,
+      has_families ? &families : nullptr,
+      planes,
+      has_slits()};
   }
 
   template <int dim>
@@ -217,7 +228,7 @@ namespace Perimorph::Application
         for (unsigned int f = 0; f < fronts.size(); ++f)
           {
             found[f] = front_values(fronts[f]);
-            if (!found[f].front().value)
+            if (fronts[f].annuli.empty())
               without_room[tip_names[f]] =
                 no_room(fronts[f].front.free_distance, 0.);
           }

@@ -78,7 +78,8 @@ namespace Perimorph::Application
             Fracture::probe_angles(cracks.facets()[plan.tip.facet].step == 0);
           if (!known.values.empty())
             plan.J = known.values.front().J;
-          if (!known.values.empty() && !parameters.finite_strain())
+          if (!known.values.empty() && known.is_isotropic &&
+              !parameters.finite_strain())
             plan.direction = Fracture::hoop_angle(known.values.front().K_I,
                                                   known.values.front().K_II);
           // Probes that would reach through a ligament say nothing.

@@ -1,4 +1,5 @@
 #include <perimorph/base/exceptions.h>
+#include <perimorph/fem/body_force.h>
 #include <perimorph/fem/face_geometry.h>
 #include <perimorph/fem/loads.h>
 #include <perimorph/fem/supports.h>
@@ -119,39 +120,30 @@ namespace Perimorph::Fem
             {
               const auto &x     = geometry.points[q];
               auto        force = geometry.normal_jxw[q].norm() *
-                           evaluate<dim>(load.traction, x, time);
+                           value_of<dim>(load.traction, x, time);
               if (load.pressure)
                 force -= load.pressure->value(x, time) * geometry.normal_jxw[q];
               for (unsigned int v = 0; v < geometry.n_nodes; ++v)
                 add(face.nodes[v], geometry.shape[q][v] * force);
             }
         }
-    for (const auto &force : conditions.body_forces)
-      {
-        const auto add_cell = [&](const unsigned int c) {
-          if (!nodal.owns_cell(c))
-            return;
-          const Mesh::CellGeometry<dim> geometry(nodal.corners(c));
-          for (unsigned int q = 0; q < geometry.n_points; ++q)
-            {
-              const auto value =
-                geometry.jxw[q] *
-                evaluate<dim>(force.components, geometry.points[q], time);
-              for (unsigned int v = 0; v < geometry.n_nodes; ++v)
-                add(nodal.cells[c][v], geometry.shape_value(q, v) * value);
-            }
-        };
-        if (force.volume.empty())
-          for (unsigned int c = 0; c < nodal.n_cells(); ++c)
-            add_cell(c);
-        else
-          for (const unsigned int c : mesh.volume(force.volume, "load"))
-            add_cell(c);
-      }
+    for_each_body_force<dim>(
+      mesh,
+      conditions.body_forces,
+      time,
+      false,
+      [&](const unsigned int             c,
+          const Mesh::CellGeometry<dim> &geometry,
+          const unsigned int             q,
+          const dealii::Tensor<1, dim>  &density) {
+        const auto force = geometry.jxw[q] * density;
+        for (unsigned int v = 0; v < geometry.n_nodes; ++v)
+          add(nodal.cells[c][v], geometry.shape_value(q, v) * force);
+      });
     for (unsigned int k = 0; k < conditions.point_forces.size(); ++k)
       if (nodal.owns_node(point_force_nodes[k]))
         add(point_force_nodes[k],
-            evaluate<dim>(conditions.point_forces[k].components,
+            value_of<dim>(conditions.point_forces[k].components,
                           nodal.nodes[point_force_nodes[k]],
                           time));
   }

@@ -20,11 +20,11 @@ namespace Perimorph::Fracture
     // Of the faces from the crack, in spacings.
     constexpr double offset = 1e-6;
     const double     pi     = std::acos(-1.);
-    const double     scale  = constants.plane_modulus() / 8.;
+    const auto stiffness    = invert(inverse_barnett_lothe_tensor(constants));
 
-    // sums of a straight line through K(r), for both modes
-    double                n = 0., sum_r = 0., sum_rr = 0.;
-    std::array<double, 2> sum = {}, sum_times_r = {};
+    // sums of a straight line through K(r) = (K_II, K_I)
+    double               n = 0., sum_r = 0., sum_rr = 0.;
+    dealii::Tensor<1, 2> sum, sum_times_r;
     for (unsigned int k = 0; k < n_places; ++k)
       {
         const double r =
@@ -45,24 +45,23 @@ namespace Perimorph::Fracture
         n += 1.;
         sum_r += r;
         sum_rr += r * r;
-        for (unsigned int mode = 0; mode < 2; ++mode)
-          {
-            const double factor = scale * std::sqrt(2. * pi / r) *
-                                  (jump * tip.axes[mode == 0 ? 1 : 0]);
-            sum[mode] += factor;
-            sum_times_r[mode] += r * factor;
-          }
+        const auto factors =
+          std::sqrt(pi / (8. * r)) *
+          (stiffness *
+           dealii::Tensor<1, 2>({jump * tip.axes[0], jump * tip.axes[1]}));
+        sum += factors;
+        sum_times_r += r * factors;
       }
 
     OpeningFactors result;
     result.n_places  = static_cast<unsigned int>(n);
-    const auto value = [&](const unsigned int mode) {
+    const auto value = [&](const unsigned int axis) {
       return n < 3. ? std::numeric_limits<double>::quiet_NaN()
-                    : (sum_rr * sum[mode] - sum_r * sum_times_r[mode]) /
+                    : (sum_rr * sum[axis] - sum_r * sum_times_r[axis]) /
                         (n * sum_rr - sum_r * sum_r);
     };
-    result.K_I  = value(0);
-    result.K_II = value(1);
+    result.K_I  = value(1);
+    result.K_II = value(0);
     return result;
   }
 

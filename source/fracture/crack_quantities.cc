@@ -12,15 +12,16 @@ namespace Perimorph::Fracture
   namespace
   {
     /// What the mesh and the law are like at a place.
+    template <int dim>
     struct Surroundings
     {
-      double           spacing;
-      double           horizon;
-      NearTipConstants constants;
+      double                          spacing;
+      double                          horizon;
+      const Materials::Material<dim> &law;
     };
 
     template <int dim>
-    Surroundings
+    Surroundings<dim>
     surroundings(const CrackedBody<dim>     &cracked,
                  const DisplacementFit<dim> &fit,
                  const dealii::Point<dim>   &point)
@@ -31,7 +32,7 @@ namespace Perimorph::Fracture
         mesh.cell_material[mesh.node_cells.row(node)[0]];
       return {mesh.spacing[node],
               cracked.alpha[node] > 0. ? cracked.horizon[node] : 0.,
-              near_tip_constants(*cracked.body.materials[material])};
+              *cracked.body.materials[material]};
     }
 
     template <int dim>
@@ -84,10 +85,11 @@ namespace Perimorph::Fracture
     std::vector<TipQuantities> all;
     for (const auto &tip : tips)
       {
-        TipQuantities      result;
-        const Surroundings around =
-          surroundings(cracked, *fit, tip.frame.origin);
-        result.tip    = tip;
+        TipQuantities result;
+        const auto    around    = surroundings(cracked, *fit, tip.frame.origin);
+        const auto    constants = near_tip_constants(around.law, tip.frame);
+        result.tip              = tip;
+        result.is_isotropic     = is_isotropic(around.law);
         result.annuli = annuli.empty() ? default_annuli(tip.crack_length,
                                                         tip.free_distance,
                                                         around.horizon,
@@ -113,17 +115,17 @@ namespace Perimorph::Fracture
                                                       mesh,
                                                       tip.frame,
                                                       annulus,
-                                                      around.constants,
+                                                      constants,
                                                       communicator));
         const double length = std::min(tip.crack_length, tip.straight_distance);
         constexpr double missing = std::numeric_limits<double>::quiet_NaN();
         result.opening           = {missing, missing, 0};
-        if (length > 5. * around.spacing)
+        if (constants && length > 5. * around.spacing)
           result.opening = factors_from_opening(*fit,
                                                 cracked.body.displacement,
                                                 tip.frame,
                                                 length,
-                                                around.constants,
+                                                *constants,
                                                 tip.path);
         all.push_back(std::move(result));
       }
@@ -144,9 +146,10 @@ namespace Perimorph::Fracture
     std::vector<FrontQuantities> all;
     for (const auto &front : fronts)
       {
-        FrontQuantities    result;
-        const Surroundings around =
-          surroundings(cracked, *fit, front.vertices[0]);
+        FrontQuantities result;
+        const auto      around = surroundings(cracked, *fit, front.vertices[0]);
+        const auto      constants =
+          near_tip_constants(around.law, front.at(0.).frame);
         const double length = front.length();
         result.front        = front;
         result.stations     = front.stations(n_stations);
@@ -173,7 +176,7 @@ namespace Perimorph::Fracture
                                     mesh,
                                     front,
                                     {station, result.half_width, annulus},
-                                    around.constants,
+                                    constants,
                                     communicator));
           }
         all.push_back(std::move(result));

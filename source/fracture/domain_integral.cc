@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace Perimorph::Fracture
 {
@@ -73,6 +74,13 @@ namespace Perimorph::Fracture
 
   namespace
   {
+    /// True where a field is continued beyond the line behind the tip.
+    bool
+    changes_sign(const NearTipField field, const double branch)
+    {
+      return branch < 0. && field != NearTipField::point_force;
+    }
+
     /// Divergence of the interaction flux: what keeps auxiliary fields that
     /// turn with a curved front from equilibrium and compatibility,
     /// (P t) . (dG e) - (t . e) P : dG + (dS t) . (H e) with the derivatives
@@ -99,49 +107,130 @@ namespace Perimorph::Fracture
              (tangent * advance) * dealii::scalar_product(P, dG) +
              (dS * tangent) * (point.displacement_gradient * advance);
     }
+
+    /// Mean of the derivative of an auxiliary displacement along the direction
+    /// of advance over the square (cube) around a place: squares closer to the
+    /// tip than twice their side are divided, the smallest at the tip left out
+    /// (2^-8 of the mean of 1 / r, the strongest singularity).
+    template <int dim>
+    dealii::Tensor<1, dim>
+    mean_slope(const NearTipField            field,
+               const NearTipConstants       &constants,
+               const TipFrame<dim>          &frame,
+               const dealii::Point<dim>     &place,
+               const double                  side,
+               const dealii::Tensor<1, dim> &direction,
+               const unsigned int            n_divisions = 8)
+    {
+      const auto away = place - frame.origin;
+      if (std::hypot(away * frame.axes[0], away * frame.axes[1]) >= 2. * side)
+        return near_tip_state(field, constants, frame, place).gradient *
+               direction;
+      dealii::Tensor<1, dim> mean;
+      if (n_divisions > 0)
+        for (const double x : {-0.25, 0.25})
+          for (const double y : {-0.25, 0.25})
+            mean +=
+              0.25 *
+              mean_slope(field,
+                         constants,
+                         frame,
+                         place + side * (x * frame.axes[0] + y * frame.axes[1]),
+                         0.5 * side,
+                         direction,
+                         n_divisions - 1);
+      return mean;
+    }
+
+    template <int dim>
+    bool
+    has_force(const StressPoint<dim> &point)
+    {
+      return point.q != 0. && point.stress_divergence.norm_square() != 0.;
+    }
+
+    /// True for points that no integral feels.
+    template <int dim>
+    bool
+    is_without_share(const StressPoint<dim> &point)
+    {
+      return point.q_gradient.norm_square() == 0. && !has_force(point) &&
+             (dim == 2 || point.q == 0.);
+    }
+
+    /// Share of a point of J.
+    template <int dim>
+    double
+    energy_release(const StressPoint<dim>       &point,
+                   const dealii::Tensor<1, dim> &direction)
+    {
+      const auto u_along = point.displacement_gradient * direction;
+      return point.volume *
+             (u_along * (point.first_piola_kirchhoff * point.q_gradient +
+                         point.q * point.stress_divergence) -
+              point.energy_density * (point.q_gradient * direction));
+    }
+
+    /// Share of a point of the interaction integral with a field.
+    template <int dim>
+    double
+    interaction(const StressPoint<dim>       &point,
+                const NearTipField            field,
+                const NearTipConstants       &constants,
+                const TipFrame<dim>          &frame,
+                const dealii::Tensor<1, dim> &direction)
+    {
+      const auto &P     = point.first_piola_kirchhoff;
+      const auto &slope = point.q_gradient;
+      double      sum   = 0.;
+      if (has_force(point))
+        sum += point.q * (point.stress_divergence *
+                          mean_slope(field,
+                                     constants,
+                                     frame,
+                                     point.x,
+                                     std::pow(point.volume, 1. / dim),
+                                     direction));
+      if (slope.norm_square() != 0. || frame.curvature != 0.)
+        {
+          const auto other = near_tip_state(field, constants, frame, point.x);
+          sum +=
+            other.gradient * direction * (P * slope) +
+            (point.displacement_gradient * direction) * (other.stress * slope) -
+            dealii::scalar_product(P, other.gradient) * (slope * direction);
+          if (frame.curvature != 0.)
+            sum += point.q * flux_divergence(point, direction, frame, other);
+        }
+      return changes_sign(field, point.branch) ? -point.volume * sum
+                                               : point.volume * sum;
+    }
   } // namespace
 
   template <int dim>
   FractureQuantities
-  fracture_quantities(const StressPointSet<dim>    &set,
-                      const dealii::Tensor<1, dim> &direction,
-                      const FrameField<dim>        &axes,
-                      const double                  area,
-                      const NearTipConstants       &constants,
-                      const MPI_Comm                communicator)
+  fracture_quantities(const StressPointSet<dim>             &set,
+                      const dealii::Tensor<1, dim>          &direction,
+                      const FrameField<dim>                 &axes,
+                      const double                           area,
+                      const std::optional<NearTipConstants> &constants,
+                      const MPI_Comm                         communicator)
   {
-    constexpr std::array<NearTipField, 4> fields = {
+    constexpr std::array<NearTipField, 3> fields = {
       {NearTipField::opening,
        NearTipField::sliding,
-       dim == 3 ? NearTipField::tearing : NearTipField::point_force,
-       NearTipField::opening}};
+       dim == 3 ? NearTipField::tearing : NearTipField::point_force}};
     std::array<double, 4> sums = {}; // three interactions, J
     for (const auto &point : set.points)
       {
-        if (point.q_gradient.norm_square() == 0. && (dim == 2 || point.q == 0.))
+        if (is_without_share(point))
           continue;
-        const auto &H       = point.displacement_gradient;
-        const auto &P       = point.first_piola_kirchhoff;
-        const auto &slope   = point.q_gradient;
-        const auto  u_along = H * direction;
-        const auto  flux    = P * slope;
-        const auto  forward = slope * direction;
-        sums[3] +=
-          point.volume * (u_along * flux - point.energy_density * forward);
+        sums[3] += energy_release(point, direction);
+        if (!constants)
+          continue;
         const auto frame = axes(point.x);
         for (unsigned int k = 0; k < 3; ++k)
-          {
-            auto other = near_tip_state(fields[k], constants, frame, point.x);
-            if (point.branch < 0. && fields[k] != NearTipField::point_force)
-              other.change_sign();
-            if (frame.curvature != 0.)
-              sums[k] += point.volume * point.q *
-                         flux_divergence(point, direction, frame, other);
-            sums[k] += point.volume *
-                       (other.gradient * direction * flux +
-                        u_along * (other.stress * slope) -
-                        dealii::scalar_product(P, other.gradient) * forward);
-          }
+          sums[k] +=
+            interaction(point, fields[k], *constants, frame, direction);
       }
     for (const auto &face : set.face_points)
       {
@@ -150,12 +239,14 @@ namespace Perimorph::Fracture
         const double weight  = face.length * face.q;
         const double forward = face.normal * direction;
         const auto   u_along = face.displacement_gradient * direction;
-        const auto   frame   = axes(face.x);
         sums[3] += weight * face.energy_density * forward;
+        if (!constants)
+          continue;
+        const auto frame = axes(face.x);
         for (unsigned int k = 0; k < 3; ++k)
           {
-            auto other = near_tip_state(fields[k], constants, frame, face.x);
-            if (face.branch < 0. && fields[k] != NearTipField::point_force)
+            auto other = near_tip_state(fields[k], *constants, frame, face.x);
+            if (changes_sign(fields[k], face.branch))
               other.change_sign();
             sums[k] +=
               weight * (dealii::scalar_product(face.first_piola_kirchhoff,
@@ -172,25 +263,31 @@ namespace Perimorph::Fracture
     for (auto &sum : all)
       sum /= area;
 
-    const double       modulus = constants.plane_modulus();
     FractureQuantities result;
-    result.J    = all[3];
-    result.K_I  = 0.5 * modulus * all[0];
-    result.K_II = 0.5 * modulus * all[1];
+    result.J           = all[3];
+    result.has_factors = constants.has_value();
+    if (!constants)
+      return result;
+    const dealii::Tensor<1, 2> K =
+      invert(inverse_barnett_lothe_tensor(*constants)) *
+      dealii::Tensor<1, 2>({all[1], all[0]});
+    result.K_I  = K[1];
+    result.K_II = K[0];
     if (dim == 3)
-      result.K_III = constants.shear_modulus * all[2];
+      result.K_III =
+        std::get<IsotropicConstants>(*constants).shear_modulus * all[2];
     else
-      result.T_stress = modulus * all[2];
+      result.T_stress = all[2] / axial_compliance(*constants);
     return result;
   }
 
   FractureQuantities
-  fracture_quantities(StressPointSet<2>        &set,
-                      const Mesh::NodalMesh<2> &mesh,
-                      const TipFrame<2>        &tip,
-                      const Annulus            &annulus,
-                      const NearTipConstants   &constants,
-                      const MPI_Comm            communicator)
+  fracture_quantities(StressPointSet<2>                     &set,
+                      const Mesh::NodalMesh<2>              &mesh,
+                      const TipFrame<2>                     &tip,
+                      const Annulus                         &annulus,
+                      const std::optional<NearTipConstants> &constants,
+                      const MPI_Comm                         communicator)
   {
     set.set_weight(annulus_weights(mesh, tip.origin, annulus));
     for (auto &face : set.face_points)
@@ -210,7 +307,7 @@ namespace Perimorph::Fracture
     const dealii::Tensor<1, dim> &,                     \
     const FrameField<dim> &,                            \
     double,                                             \
-    const NearTipConstants &,                           \
+    const std::optional<NearTipConstants> &,            \
     MPI_Comm);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -75,12 +75,12 @@ namespace Perimorph::Fracture
   }
 
   FractureQuantities
-  fracture_quantities(StressPointSet<3>        &set,
-                      const Mesh::NodalMesh<3> &mesh,
-                      const CrackFront         &front,
-                      const FrontDomain        &domain,
-                      const NearTipConstants   &constants,
-                      const MPI_Comm            communicator)
+  fracture_quantities(StressPointSet<3>                     &set,
+                      const Mesh::NodalMesh<3>              &mesh,
+                      const CrackFront                      &front,
+                      const FrontDomain                     &domain,
+                      const std::optional<NearTipConstants> &constants,
+                      const MPI_Comm                         communicator)
   {
     set.set_weight(front_weights(mesh, front, domain));
     return fracture_quantities<3>(

@@ -73,6 +73,9 @@ namespace Perimorph::Fracture
               const auto &gradient = geometry.gradients[q][v];
               point.displacement_gradient +=
                 dealii::outer_product(body.displacement[nodes[v]], gradient);
+              if (!body.stress_divergence.empty())
+                point.stress_divergence +=
+                  geometry.shape_value(q, v) * body.stress_divergence[nodes[v]];
               set.node.push_back(nodes[v]);
               set.value_weight.push_back(geometry.shape_value(q, v));
               set.gradient_weight.push_back(gradient);
@@ -151,6 +154,10 @@ namespace Perimorph::Fracture
               const auto result =
                 fit.fit(point.x, spacing, material, body.displacement);
               point.displacement_gradient = result.gradient;
+              if (!body.stress_divergence.empty())
+                point.stress_divergence =
+                  fit.fit(point.x, spacing, material, body.stress_divergence)
+                    .displacement;
               try
                 {
                   if (result.n_nodes == 0)
@@ -257,6 +264,8 @@ namespace Perimorph::Fracture
         StressPoint<dim> point = {};
         point.x                = body.mesh.nodes[own];
         point.volume           = families.weight[p];
+        if (!body.stress_divergence.empty())
+          point.stress_divergence = body.stress_divergence[own];
         dealii::Tensor<1, dim> sum;
         for (std::size_t b = families.offsets[p]; b < families.offsets[p + 1];
              ++b)

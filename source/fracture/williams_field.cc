@@ -1,4 +1,4 @@
-#include <perimorph/fracture/williams_field.h>
+#include <perimorph/fracture/lekhnitskii_field.h>
 
 #include <cmath>
 #include <complex>
@@ -11,19 +11,11 @@ namespace Perimorph::Fracture
 
     const double pi = std::acos(-1.);
 
-    /// Components in the plane normal to the front.
-    struct PlaneState
-    {
-      dealii::Tensor<1, 2> displacement;
-      dealii::Tensor<2, 2> gradient;
-      dealii::Tensor<2, 2> stress;
-    };
-
     /// @param factor  K_I - i K_II
-    PlaneState
-    open_and_slide(const Complex           factor,
-                   const NearTipConstants &constants,
-                   const Complex           z)
+    NearTipState<2>
+    open_and_slide(const Complex             factor,
+                   const IsotropicConstants &constants,
+                   const Complex             z)
     {
       const double  kappa = constants.kolosov;
       const Complex i(0., 1.);
@@ -49,7 +41,7 @@ namespace Perimorph::Fracture
       const Complex s_y   = slope + mirrored_slope + // s_yy - i s_xy
                           twice_y * std::conj(curvature);
 
-      PlaneState state;
+      NearTipState<2> state;
       state.displacement   = dealii::Tensor<1, 2>({u.real(), u.imag()});
       state.gradient[0][0] = u_x.real();
       state.gradient[1][0] = u_x.imag();
@@ -61,8 +53,8 @@ namespace Perimorph::Fracture
       return state;
     }
 
-    PlaneState
-    pull(const NearTipConstants &constants, const Complex z)
+    NearTipState<2>
+    pull(const IsotropicConstants &constants, const Complex z)
     {
       const double r     = std::abs(z);
       const double theta = std::arg(z);
@@ -73,7 +65,7 @@ namespace Perimorph::Fracture
       const double minus = (constants.kolosov - 1.) / (8. * pi * mu);
       const double other = 1. / (4. * pi * mu);
 
-      PlaneState state;
+      NearTipState<2> state;
       state.displacement[0] = -plus * std::log(r) - other * s * s;
       state.displacement[1] = -minus * theta + other * s * c;
       const dealii::Tensor<1, 2> radial({c, s});
@@ -83,26 +75,38 @@ namespace Perimorph::Fracture
       state.stress      = -c / (pi * r) * dealii::outer_product(radial, radial);
       return state;
     }
+
+    NearTipState<3>
+    tear(const IsotropicConstants &constants, const Complex z)
+    {
+      const Complex   f     = std::sqrt(2. * z / pi) / constants.shear_modulus;
+      const Complex   slope = 0.5 * f / z;
+      NearTipState<3> state;
+      state.displacement[2] = f.imag();
+      state.gradient[2][0]  = slope.imag();
+      state.gradient[2][1]  = slope.real();
+      for (int a = 0; a < 2; ++a)
+        state.stress[2][a] = state.stress[a][2] =
+          constants.shear_modulus * state.gradient[2][a];
+      return state;
+    }
+
+    NearTipState<2>
+    plane_state(const NearTipField      field,
+                const NearTipConstants &constants,
+                const Complex           z)
+    {
+      if (const auto *plane = std::get_if<AnisotropicConstants>(&constants))
+        return lekhnitskii_state(field, *plane, z.real(), z.imag());
+      const auto &isotropic = std::get<IsotropicConstants>(constants);
+      if (field == NearTipField::point_force)
+        return pull(isotropic, z);
+      return open_and_slide(field == NearTipField::opening ? Complex(1., 0.)
+                                                           : Complex(0., -1.),
+                            isotropic,
+                            z);
+    }
   } // namespace
-
-  TipFrame<2>
-  tip_frame(const dealii::Point<2>     &origin,
-            const dealii::Tensor<1, 2> &direction)
-  {
-    const dealii::Tensor<1, 2> along = direction / direction.norm();
-    return {origin, {{along, dealii::Tensor<1, 2>({-along[1], along[0]})}}, 0.};
-  }
-
-  template <int dim>
-  NearTipConstants
-  near_tip_constants(const Materials::Material<dim> &material)
-  {
-    const dealii::Tensor<2, dim> rest;
-    const auto                   A      = material.tangent(rest);
-    const double                 mu     = A[0][1][0][1];
-    const double                 lambda = A[0][0][1][1];
-    return {mu, (lambda + 3. * mu) / (lambda + mu)};
-  }
 
   template <int dim>
   NearTipState<dim>
@@ -118,26 +122,11 @@ namespace Perimorph::Fracture
     if (field == NearTipField::tearing)
       {
         if constexpr (dim == 3)
-          {
-            const Complex f = std::sqrt(2. * z / pi) / constants.shear_modulus;
-            const Complex slope   = 0.5 * f / z;
-            local.displacement[2] = f.imag();
-            local.gradient[2][0]  = slope.imag();
-            local.gradient[2][1]  = slope.real();
-            for (int a = 0; a < 2; ++a)
-              local.stress[2][a] = local.stress[a][2] =
-                constants.shear_modulus * local.gradient[2][a];
-          }
+          local = tear(std::get<IsotropicConstants>(constants), z);
       }
     else
       {
-        const PlaneState plane =
-          field == NearTipField::point_force
-            ? pull(constants, z)
-            : open_and_slide(field == NearTipField::opening ? Complex(1., 0.)
-                                                            : Complex(0., -1.),
-                             constants,
-                             z);
+        const NearTipState<2> plane = plane_state(field, constants, z);
         for (int i = 0; i < 2; ++i)
           {
             local.displacement[i] = plane.displacement[i];
@@ -149,7 +138,8 @@ namespace Perimorph::Fracture
           }
         if constexpr (dim == 3)
           local.stress[2][2] =
-            0.25 * (3. - constants.kolosov) * trace(plane.stress);
+            0.25 * (3. - std::get<IsotropicConstants>(constants).kolosov) *
+            trace(plane.stress);
       }
 
     dealii::Tensor<2, dim> rotation; // local to global
@@ -162,8 +152,6 @@ namespace Perimorph::Fracture
   }
 
 #define INSTANTIATE(dim)                                                   \
-  template NearTipConstants near_tip_constants<dim>(                       \
-    const Materials::Material<dim> &);                                     \
   template NearTipState<dim> near_tip_state<dim>(NearTipField,             \
                                                  const NearTipConstants &, \
                                                  const TipFrame<dim> &,    \

@@ -81,6 +81,35 @@ def slant_crack(study):
                          s * s - c * c, .01)
 
 
+def body_force(study):
+    """Body forces under which the body without crack has the stresses
+    s (1 + y / h) across and s (1 + x / w) along the crack, h and w half height
+    and width: the crack feels s across, its factors are those of the tension
+    s; along it s (1 + x / w) adds to T."""
+    for case, crack, tip_place, half_width, half_height, stress in (
+        (CASE, "crack", 1., 2.5, 7.5, 1.),
+        ("centre_crack_square_plate.prm", "centre", 5., 25., 25., 10.)):
+        pulled = study.solve(case)
+        hung = study.solve(case, {
+            "Boundary conditions/traction":
+            "top: y = %g; right: x = %g" % (2. * stress, 2. * stress),
+            "Boundary conditions/body force": "x = %.16g, y = %.16g" %
+            (-stress / half_width, -stress / half_height)})
+        for tip in BOTH_TIPS:
+            name = crack + "_tip%d_" % tip
+            what = "%s, tip %d: " % (case, tip)
+            for quantity in ("K_I", "J"):
+                study.within_percent(what + quantity + " over that of tension",
+                                     hung[name + quantity],
+                                     pulled[name + quantity], .1)
+            along = stress * (1. + (-1)**tip * tip_place / half_width)
+            study.within(what + "T-stress over s",
+                         hung[name + "T_stress"] / stress,
+                         (pulled[name + "T_stress"] + along) / stress, .005)
+            study.below(what + "domain dependence %",
+                        100. * hung[name + "domain_dependence"], .3)
+
+
 def split_plate(path, spacing):
     """gmsh text: a square of half width 40 in two parts along y = 0 and a path
     through its middle, the lines of the path double."""
@@ -231,6 +260,7 @@ def main():
     for name, part in (("centre crack in a strip (Tada), a/b = 0.4",
                         centre_crack),
                        ("slant slit, infinite plate", slant_crack),
+                       ("centre cracks under a body force", body_force),
                        ("slits that bend, unstructured", bent_slits),
                        ("edge crack at finite strain", bent_beam)):
         if study.part(name):

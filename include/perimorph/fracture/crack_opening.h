@@ -18,11 +18,12 @@ namespace Perimorph::Fracture
     unsigned int n_places = 0;
   };
 
-  /// K(r) = E' / 8 sqrt(2 pi / r) times the opening (mode I) or sliding (mode
-  /// II) at a distance r behind the tip, at 16 places in 0.15 < r / length <
-  /// 0.6, extrapolated to the tip by a straight line (numerics.md, Q4). A
-  /// check: less accurate than the domain integral. The crack must be straight
-  /// there.
+  /// (K_II, K_I) = sqrt(pi / (8 r)) L times the sliding and the opening at a
+  /// distance r behind the tip, L the tensor of Barnett and Lothe
+  /// (near_tip_constants.h; isotropic: E' / 2), at 16 places in 0.15 < r /
+  /// length < 0.6, extrapolated to the tip by a straight line (numerics.md,
+  /// Q4). A check: less accurate than the domain integral. The crack must be
+  /// straight there.
   /// @param fit           one that does not see past the crack (visible_fit)
   /// @param displacement  one vector per node of the mesh
   /// @param length        crack length, or the half of it with two tips

@@ -26,7 +26,10 @@ namespace Perimorph::Fracture
   /// Values at a tip on each annulus; the first is the one to report.
   struct TipQuantities
   {
-    CrackTip                        tip;
+    CrackTip tip;
+    /// Of the law at the tip. Only there cracks go in the direction of
+    /// hoop_angle().
+    bool                            is_isotropic = true;
     std::vector<Annulus>            annuli; ///< none: no room, no values
     std::vector<FractureQuantities> values;
     /// Free distance that the smallest annulus needs.

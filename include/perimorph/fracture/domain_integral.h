@@ -6,6 +6,7 @@
 #include <mpi.h>
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace Perimorph::Fracture
@@ -56,10 +57,12 @@ namespace Perimorph::Fracture
   /// What drives a crack at a tip.
   struct FractureQuantities
   {
-    double J     = 0.; ///< energy release rate [stress * length]
-    double K_I   = 0.; ///< [stress * length^(1/2)]
-    double K_II  = 0.;
-    double K_III = 0.; ///< 0 in 2D
+    double J = 0.; ///< energy release rate [stress * length]
+    /// False where no near-tip fields are known: no factors, no T-stress.
+    bool   has_factors = true;
+    double K_I         = 0.; ///< [stress * length^(1/2)]
+    double K_II        = 0.;
+    double K_III       = 0.; ///< 0 in 2D
     /// Stress along the crack that the singular terms leave over [stress]; 0
     /// in 3D.
     double T_stress = 0.;
@@ -70,32 +73,43 @@ namespace Perimorph::Fracture
   using FrameField = std::function<TipFrame<dim>(const dealii::Point<dim> &)>;
 
   /// J = sum volume (P_ij H_i1 - W delta_1j) dq/dx_j along the direction of
-  /// advance, and the interaction integrals with the near-tip fields. The
+  /// advance, and the interaction integrals I with the near-tip fields. The
   /// points hold the gradient of q (StressPointSet::set_weight).
+  ///
+  /// (K_II, K_I) = L (I_II, I_I) with the tensor of Barnett and Lothe
+  /// (near_tip_constants.h), K_III = mu I_III, T = I / S11.
+  ///
+  /// Where the stress has a divergence f, inertia rho a or a body force -b, J
+  /// also has the sum of volume q f . H e_1 and each I that of volume q f . H
+  /// e_1 of its auxiliary field, which is in equilibrium by itself (a crack
+  /// that stands still: T. Nishioka, S. N. Atluri, Eng. Fract. Mech. 18 (1983)
+  /// 1). The kinetic energy adds nothing: its terms are the integral of -d(q
+  /// rho v^2 / 2)/dx_1, zero around a crack along x_1.
   ///
   /// The crack must be free of traction and alone within the
   /// annulus, straight or with points on its faces (crack_faces.h), the body
-  /// homogeneous and free of body forces. K and T belong to small strain, J to
-  /// any. Sums over all ranks.
+  /// homogeneous. K and T belong to small strain, J to any. Sums over all
+  /// ranks.
   /// @param direction  of advance, where q = 1
   /// @param axes       local axes of the auxiliary fields at a place
   /// @param area       by which the crack grows when it advances by q:
   ///                   1 in 2D, integral of q along the front in 3D
+  /// @param constants  none: J only
   template <int dim>
   FractureQuantities
-  fracture_quantities(const StressPointSet<dim>    &set,
-                      const dealii::Tensor<1, dim> &direction,
-                      const FrameField<dim>        &axes,
-                      double                        area,
-                      const NearTipConstants       &constants,
-                      MPI_Comm                      communicator);
+  fracture_quantities(const StressPointSet<dim>             &set,
+                      const dealii::Tensor<1, dim>          &direction,
+                      const FrameField<dim>                 &axes,
+                      double                                 area,
+                      const std::optional<NearTipConstants> &constants,
+                      MPI_Comm                               communicator);
 
   /// Of one tip of a plane crack.
   FractureQuantities
-  fracture_quantities(StressPointSet<2>        &set,
-                      const Mesh::NodalMesh<2> &mesh,
-                      const TipFrame<2>        &tip,
-                      const Annulus            &annulus,
-                      const NearTipConstants   &constants,
-                      MPI_Comm                  communicator);
+  fracture_quantities(StressPointSet<2>                     &set,
+                      const Mesh::NodalMesh<2>              &mesh,
+                      const TipFrame<2>                     &tip,
+                      const Annulus                         &annulus,
+                      const std::optional<NearTipConstants> &constants,
+                      MPI_Comm                               communicator);
 } // namespace Perimorph::Fracture

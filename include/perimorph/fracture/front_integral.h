@@ -39,10 +39,10 @@ namespace Perimorph::Fracture
   /// integral that makes up for it (the change of the axes along the front) is
   /// included, from the curvature of the polyline.
   FractureQuantities
-  fracture_quantities(StressPointSet<3>        &set,
-                      const Mesh::NodalMesh<3> &mesh,
-                      const CrackFront         &front,
-                      const FrontDomain        &domain,
-                      const NearTipConstants   &constants,
-                      MPI_Comm                  communicator);
+  fracture_quantities(StressPointSet<3>                     &set,
+                      const Mesh::NodalMesh<3>              &mesh,
+                      const CrackFront                      &front,
+                      const FrontDomain                     &domain,
+                      const std::optional<NearTipConstants> &constants,
+                      MPI_Comm                               communicator);
 } // namespace Perimorph::Fracture

@@ -20,7 +20,8 @@ namespace Perimorph::Fracture
     dealii::Tensor<2, dim> displacement_gradient; ///< [i][j] = du_i / dX_j
     dealii::Tensor<2, dim> first_piola_kirchhoff;
     double                 energy_density;
-    double                 q; ///< weight of a domain integral
+    dealii::Tensor<1, dim> stress_divergence; ///< of DeformedBody
+    double                 q;                 ///< weight of a domain integral
     dealii::Tensor<1, dim> q_gradient;
     double                 branch = 1.; ///< branch_sign()
   };
@@ -69,6 +70,9 @@ namespace Perimorph::Fracture
     const Mesh::NodalMesh<dim>                &mesh;
     const MaterialList<dim>                   &materials;
     const std::vector<dealii::Tensor<1, dim>> &displacement; ///< all nodes
+    /// div P at all nodes, for domain integrals [force / volume]: density times
+    /// acceleration less the body force. Empty: zero.
+    std::vector<dealii::Tensor<1, dim>> stress_divergence = {};
   };
 
   /// Nodes closer to one of the centers than the radius. Cells and particles
@@ -92,7 +96,9 @@ namespace Perimorph::Fracture
   /// Adds the particles of this rank with volume a_i; the gradient is the sum
   /// (u_j - u_i) (x) g_ij, and that of q is taken by the same operator, so that
   /// the sum over all points is the change of energy of the discrete model
-  /// under the shift q of its material.
+  /// under the shift q of its material. The divergence of the stress is that of
+  /// the node, where the mass is: a mean over the family would smooth it, an
+  /// interpolation would reach across the crack.
   template <int dim>
   void
   add_family_points(const DeformedBody<dim>            &body,

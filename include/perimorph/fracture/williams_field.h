@@ -1,53 +1,9 @@
 #pragma once
 
-#include <perimorph/materials/material.h>
-
-#include <deal.II/base/point.h>
-#include <deal.II/base/tensor.h>
-
-#include <array>
+#include <perimorph/fracture/near_tip_constants.h>
 
 namespace Perimorph::Fracture
 {
-  /// Local axes at a crack tip or at a point of a crack front: the crack lies
-  /// behind the origin, along -axes[0].
-  template <int dim>
-  struct TipFrame
-  {
-    dealii::Point<dim> origin;
-    /// Direction of growth, normal of the crack, in 3D tangent of the front:
-    /// orthonormal and right-handed.
-    std::array<dealii::Tensor<1, dim>, dim> axes;
-    /// Of the front in space [1 / length]: 1 / radius for a penny crack.
-    double curvature = 0.;
-  };
-
-  /// Axes for a direction in 2D; the normal is the direction turned left.
-  TipFrame<2>
-  tip_frame(const dealii::Point<2>     &origin,
-            const dealii::Tensor<1, 2> &direction);
-
-  /// Isotropic elastic constants of the plane normal to a crack front.
-  struct NearTipConstants
-  {
-    double shear_modulus; ///< mu [stress]
-    double kolosov;       ///< kappa: (3 - nu) / (1 + nu) in plane stress, else
-                          ///< 3 - 4 nu
-
-    /// E' = 8 mu / (kappa + 1): E in plane stress, else E / (1 - nu^2).
-    double
-    plane_modulus() const
-    {
-      return 8. * shear_modulus / (kolosov + 1.);
-    }
-  };
-
-  /// From the tangent of an isotropic law at rest; in 3D those of plane strain
-  /// along the front.
-  template <int dim>
-  NearTipConstants
-  near_tip_constants(const Materials::Material<dim> &material);
-
   /// Fields that leave the faces of a straight crack free of traction.
   enum class NearTipField
   {
@@ -78,10 +34,11 @@ namespace Perimorph::Fracture
   /// the tip; a point on the crack belongs to the side that its coordinate
   /// along the normal has the sign of.
   ///
-  /// Modes I and II by complex potentials with phi = omega = (K_I - i K_II)
-  /// sqrt(z / (2 pi)): 2 mu (u + i v) = kappa phi(z) - omega(conj z) -
-  /// (z - conj z) conj(phi'(z)) (Muskhelishvili). Point force: Flamant's
-  /// radial stress -cos(theta) / (pi r), for the T-stress.
+  /// Isotropic modes I and II by complex potentials with phi = omega = (K_I - i
+  /// K_II) sqrt(z / (2 pi)): 2 mu (u + i v) = kappa phi(z) - omega(conj z) - (z
+  /// - conj z) conj(phi'(z)) (Muskhelishvili). Point force: Flamant's radial
+  /// stress -cos(theta) / (pi r), for the T-stress. Anisotropic (2D): see
+  /// lekhnitskii_state().
   template <int dim>
   NearTipState<dim>
   near_tip_state(NearTipField              field,

@@ -1,4 +1,5 @@
 #include <perimorph/base/exceptions.h>
+#include <perimorph/fem/body_force.h>
 #include <perimorph/fem/elastic_cells.h>
 #include <perimorph/fem/face_geometry.h>
 #include <perimorph/fem/loads.h>
@@ -116,6 +117,28 @@ namespace Perimorph::Fem
     EXPECT_NEAR(force[0], 2., 1e-12);
     EXPECT_NEAR(force[1], -1.5, 1e-12);
     EXPECT_NEAR(moment, -1. - 2., 1e-2); // x^2 is not exact with 2 x 2 points
+  }
+
+  // Exact where it is constant, and inside of regular meshes where it is
+  // linear.
+  TEST(Loads, body_force_density_at_the_nodes)
+  {
+    const auto mesh = unit_body<2>(4);
+    EXPECT_TRUE(body_force_density<2>(mesh, {}, 1.).empty());
+    const auto density = body_force_density<2>(
+      mesh,
+      {{"", {{expression("2*t"), {}}}}, {"body", {{{}, expression("-3*x")}}}},
+      0.5);
+    ASSERT_EQ(density.size(), mesh.nodal().n_nodes());
+    for (unsigned int n = 0; n < density.size(); ++n)
+      {
+        const auto &x = mesh.nodal().nodes[n];
+        EXPECT_NEAR(density[n][0], 1., 1e-14);
+        if (x[0] > 0.1 && x[0] < 0.9)
+          {
+            EXPECT_NEAR(density[n][1], -3. * x[0], 1e-14);
+          }
+      }
   }
 
   TEST(Loads, bad_input_is_named)

@@ -5,9 +5,12 @@
 #include <perimorph/materials/linear_elastic.h>
 
 #include "exact_fields.h"
+#include "plane_stiffness_law.h"
 #include <harness/test_meshes.h>
 
 #include <cmath>
+#include <memory>
+#include <optional>
 
 // Plates whose nodes move by the exact near-tip fields.
 namespace Perimorph::Testing
@@ -23,6 +26,9 @@ namespace Perimorph::Testing
     double                angle = 0.; ///< of the crack
     dealii::Point<2>      tip;
     Materials::PlaneState state = Materials::PlaneState::plane_strain;
+    /// Of an anisotropic law (11, 22, 12) in global axes, instead of the
+    /// isotropic one with E = 1.
+    std::optional<dealii::SymmetricTensor<2, 3>> stiffness = std::nullopt;
 
     Fracture::TipFrame<2>
     frame() const
@@ -32,40 +38,62 @@ namespace Perimorph::Testing
         dealii::Tensor<1, 2>({std::cos(angle), std::sin(angle)}));
     }
 
-    Materials::LinearElastic<2>
+    std::unique_ptr<Materials::Material<2>>
     law() const
     {
-      return {1., near_tip_poissons_ratio, state};
+      if (stiffness)
+        return std::make_unique<PlaneStiffnessLaw>(*stiffness);
+      return std::make_unique<Materials::LinearElastic<2>>(
+        1.,
+        near_tip_poissons_ratio,
+        state);
+    }
+
+    Fracture::IsotropicConstants
+    isotropic_constants() const
+    {
+      return Fracture::isotropic_constants(*law());
     }
 
     Fracture::NearTipConstants
     constants() const
     {
-      return Fracture::near_tip_constants(law());
+      return *Fracture::near_tip_constants(*law(), frame());
+    }
+
+    /// J = 1/2 K . L^-1 K
+    double
+    exact_J() const
+    {
+      const dealii::Tensor<1, 2> K({K_II, K_I});
+      return 0.5 * (K * (inverse_barnett_lothe_tensor(constants()) * K));
     }
 
     Fracture::NearTipState<2>
     at(const dealii::Point<2> &x) const
     {
       using Fracture::NearTipField;
+      const auto known = constants();
       const auto opening =
-        near_tip_state(NearTipField::opening, constants(), frame(), x);
+        near_tip_state(NearTipField::opening, known, frame(), x);
       const auto sliding =
-        near_tip_state(NearTipField::sliding, constants(), frame(), x);
+        near_tip_state(NearTipField::sliding, known, frame(), x);
       Fracture::NearTipState<2> sum;
       sum.displacement =
         K_I * opening.displacement + K_II * sliding.displacement;
       sum.gradient = K_I * opening.gradient + K_II * sliding.gradient;
-      // stress T along the crack: strains T / E' and -nu' T / E'
-      const double kappa  = constants().kolosov;
-      const double along  = T / constants().plane_modulus();
-      const double across = along * (kappa - 3.) / (kappa + 1.);
-      const auto  &axes   = frame().axes;
-      const auto   strain = along * dealii::outer_product(axes[0], axes[0]) +
-                          across * dealii::outer_product(axes[1], axes[1]);
+      // strains of the stress T along the crack
+      const auto  S    = plane_compliance(*law(), frame());
+      const auto &axes = frame().axes;
+      const auto  strain =
+        T * (S[0][0] * dealii::outer_product(axes[0], axes[0]) +
+             S[0][1] * dealii::outer_product(axes[1], axes[1]) +
+             0.5 * S[0][2] *
+               (dealii::outer_product(axes[0], axes[1]) +
+                dealii::outer_product(axes[1], axes[0])));
       sum.gradient += strain;
       sum.displacement += strain * (x - tip);
-      sum.stress = law().first_piola_kirchhoff(sum.gradient);
+      sum.stress = law()->first_piola_kirchhoff(sum.gradient);
       return sum;
     }
 

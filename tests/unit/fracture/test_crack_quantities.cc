@@ -24,7 +24,7 @@ namespace
       , normal(std::cos(angle) * std::cos(angle))
       , shear(std::sin(angle) * std::cos(angle))
       , along(std::sin(angle) * std::sin(angle))
-      , constants(Testing::NearTipCase().constants())
+      , constants(Testing::NearTipCase().isotropic_constants())
     {}
 
     dealii::Tensor<1, 2>
@@ -48,6 +48,12 @@ namespace
       return shear * std::sqrt(std::acos(-1.) * half_length);
     }
 
+    std::unique_ptr<Materials::Material<2>>
+    law() const
+    {
+      return Testing::NearTipCase().law();
+    }
+
     Bonds::CrackSet<2>
     crack() const
     {
@@ -62,9 +68,9 @@ namespace
     }
 
   private:
-    Complex          turn, center;
-    double           normal, shear, along; ///< stress in the axes of the crack
-    NearTipConstants constants;
+    Complex turn, center;
+    double  normal, shear, along; ///< stress in the axes of the crack
+    IsotropicConstants constants;
 
     /// sqrt(z^2 - a^2) with the cut on the crack.
     static Complex
@@ -100,22 +106,109 @@ namespace
     }
   };
 
-  // Both tips of a crack, from the exact displacement of the nodes: everything
-  // between the parameter file and the numbers but the solve.
-  // K_I = s sqrt(pi a) cos^2 b, K_II = s sqrt(pi a) sin b cos b. Tolerances:
-  // about 1.3 times the errors measured.
-  TEST(CrackQuantities, both_tips_of_a_slant_crack)
+  /// Infinite anisotropic plate with a crack of length 2 under stresses 1
+  /// across and 0.4 in shear in the axes of the crack (S. G. Lekhnitskii,
+  /// Anisotropic Plates, 1968).
+  class AnisotropicCrack
   {
-    const unsigned int n     = 48; // h = a / 12
-    const double       angle = 0.4;
-    const SlantCrack   exact(angle, dealii::Point<2>(0.02, -0.03));
-    const auto         mesh  = Testing::structured_mesh<2>({{n, n}},
+  public:
+    AnisotropicCrack(const double angle, const dealii::Point<2> &center)
+    {
+      body.angle     = angle;
+      body.tip       = center;
+      body.stiffness = Testing::graphite_epoxy(0.9);
+      plane          = std::get<AnisotropicConstants>(body.constants());
+    }
+
+    dealii::Tensor<1, 2>
+    displacement(const dealii::Point<2> &point) const
+    {
+      const auto   frame  = body.frame();
+      const auto   away   = point - body.tip;
+      const double x      = away * frame.axes[0];
+      const double y      = away * frame.axes[1];
+      const auto  &S      = plane.compliance;
+      const auto   strain = S * dealii::Tensor<1, 3>({0., across, shear});
+      dealii::Tensor<1, 2> u({strain[0] * x + 0.5 * strain[2] * y,
+                              0.5 * strain[2] * x + strain[1] * y});
+      const auto           roots = plane.roots();
+      for (const unsigned int k : {0u, 1u})
+        {
+          const Complex m = roots[k], other = roots[1 - k];
+          const Complex z      = x + m * y;
+          const Complex factor = -(shear + other * across) / (m - other);
+          const Complex potential =
+            factor *
+            (std::sqrt(z - half_length) * std::sqrt(z + half_length) - z);
+          u[0] +=
+            ((S[0][0] * m * m + S[0][1] - S[0][2] * m) * potential).real();
+          u[1] += ((S[0][1] * m + S[1][1] / m - S[1][2]) * potential).real();
+        }
+      return u[0] * frame.axes[0] + u[1] * frame.axes[1];
+    }
+
+    double
+    K_I() const
+    {
+      return across * std::sqrt(std::acos(-1.) * half_length);
+    }
+
+    double
+    K_II() const
+    {
+      return shear * std::sqrt(std::acos(-1.) * half_length);
+    }
+
+    double
+    T_stress() const
+    {
+      return (shear * plane.root_sum + across * plane.root_product).real();
+    }
+
+    double
+    J() const
+    {
+      auto tip = body;
+      tip.K_I  = K_I();
+      tip.K_II = K_II();
+      return tip.exact_J();
+    }
+
+    Bonds::CrackSet<2>
+    crack() const
+    {
+      const auto           along = half_length * body.frame().axes[0];
+      Bonds::CrackFacet<2> facet;
+      facet.corners = {{body.tip - along, body.tip + along}};
+      return Bonds::CrackSet<2>({facet});
+    }
+
+    std::unique_ptr<Materials::Material<2>>
+    law() const
+    {
+      return body.law();
+    }
+
+  private:
+    static constexpr double across = 1., shear = 0.4;
+    Testing::NearTipCase    body;
+    AnisotropicConstants    plane;
+  };
+
+  constexpr unsigned int n_cells = 48; // h = a / 12
+
+  /// Both tips of a crack, from the exact displacement of the nodes: everything
+  /// between the parameter file and the numbers but the solve.
+  template <typename Exact>
+  std::vector<TipQuantities>
+  tips_of(const Exact &exact, const bool with_families)
+  {
+    const auto      mesh = Testing::structured_mesh<2>({{n_cells, n_cells}},
                                                   dealii::Point<2>(-2., -2.),
                                                   dealii::Point<2>(2., 2.),
                                                   0.2);
-    const auto         state = Testing::NearTipCase().state;
-    const auto         materials =
-      Testing::unit_material<2>(Testing::near_tip_poissons_ratio, state);
+    MaterialList<2> materials;
+    materials.push_back(exact.law());
     std::vector<dealii::Tensor<1, 2>> displacement;
     for (const auto &x : mesh.nodes)
       displacement.push_back(exact.displacement(x));
@@ -126,22 +219,29 @@ namespace
       horizon.push_back(1.5 * h);
     const auto families =
       Testing::cut_families(mesh, alpha, 1.5, cracks, {1. / 2.6, 1.1, 0.43});
-
     CrackedBody<2> body = {{mesh, materials, displacement},
                            cracks,
                            alpha,
                            horizon};
+    if (with_families)
+      body.families = &families;
+    return tip_quantities(body, find_tips(mesh, cracks), {}, MPI_COMM_SELF);
+  }
+
+  // K_I = s sqrt(pi a) cos^2 b, K_II = s sqrt(pi a) sin b cos b. Tolerances
+  // here and below: about 1.3 times the errors measured.
+  TEST(CrackQuantities, both_tips_of_a_slant_crack)
+  {
+    const SlantCrack exact(0.4, dealii::Point<2>(0.02, -0.03));
     for (const bool with_families : {false, true})
       {
-        body.families = with_families ? &families : nullptr;
-        const auto result =
-          tip_quantities(body, find_tips(mesh, cracks), {}, MPI_COMM_SELF);
+        const auto result = tips_of(exact, with_families);
         ASSERT_EQ(result.size(), 2u);
         EXPECT_LT(result[0].tip.frame.axes[0][0], 0.);
         for (const auto &tip : result)
           {
             const double modulus =
-              Testing::NearTipCase().constants().plane_modulus();
+              Testing::NearTipCase().isotropic_constants().plane_modulus();
             ASSERT_EQ(tip.values.size(), 2u);
             EXPECT_EQ(tip.n_without_stress, 0u);
             EXPECT_LT(tip.domain_dependence(), with_families ? 2e-3 : 1e-3);
@@ -163,5 +263,35 @@ namespace
             EXPECT_NEAR(tip.opening.K_II / exact.K_II(), 1., 0.11);
           }
       }
+  }
+
+  // K_I = s sqrt(pi a), K_II = t sqrt(pi a), T = Re(t (m_1 + m_2) + s m_1 m_2).
+  TEST(CrackQuantities, both_tips_of_a_crack_in_an_anisotropic_body)
+  {
+    const AnisotropicCrack exact(0.4, dealii::Point<2>(0.02, -0.03));
+    for (const bool with_families : {false, true})
+      for (const auto &tip : tips_of(exact, with_families))
+        {
+          EXPECT_FALSE(tip.is_isotropic);
+          ASSERT_EQ(tip.values.size(), 2u);
+          EXPECT_EQ(tip.n_without_stress, 0u);
+          for (const auto &value : tip.values)
+            {
+              EXPECT_NEAR(value.K_I / exact.K_I(),
+                          1.,
+                          with_families ? 2.9e-3 : 2e-3);
+              EXPECT_NEAR(value.K_II / exact.K_II(),
+                          1.,
+                          with_families ? 2.3e-2 : 7.6e-3);
+              EXPECT_NEAR(value.J / exact.J(),
+                          1.,
+                          with_families ? 6.5e-3 : 1.5e-3);
+              EXPECT_NEAR(value.T_stress / exact.T_stress(),
+                          1.,
+                          with_families ? 1.6e-2 : 2.6e-3);
+            }
+          EXPECT_NEAR(tip.opening.K_I / exact.K_I(), 1., 1.5e-2);
+          EXPECT_NEAR(tip.opening.K_II / exact.K_II(), 1., 0.105);
+        }
   }
 } // namespace

@@ -35,7 +35,7 @@ namespace
           const auto state            = body.at(point.x);
           point.displacement_gradient = state.gradient;
           point.first_piola_kirchhoff = state.stress;
-          point.energy_density = body.law().energy_density(state.gradient);
+          point.energy_density = body.law()->energy_density(state.gradient);
           point.q_gradient     = -radial / (annulus.outer - annulus.inner);
           set.points.push_back(point);
         }
@@ -73,11 +73,42 @@ namespace
           EXPECT_NEAR(found.K_II, -0.7, 1e-5);
           EXPECT_EQ(found.K_III, 0.);
           EXPECT_NEAR(found.T_stress, 0.4, 1e-4);
-          EXPECT_NEAR(found.J,
-                      (1.3 * 1.3 + 0.7 * 0.7) /
-                        body.constants().plane_modulus(),
-                      1e-4);
+          EXPECT_NEAR(found.J, body.exact_J(), 1e-4);
         }
+  }
+
+  TEST(DomainIntegral, recovers_the_factors_in_anisotropic_bodies)
+  {
+    for (const double fibre : {0., 0.5, 1.2, 2.4})
+      for (const double angle : {0., 0.6, -1.9})
+        {
+          NearTipCase body;
+          body.K_I         = 1.3;
+          body.K_II        = -0.7;
+          body.angle       = angle;
+          body.tip         = dealii::Point<2>(0.4, -3.);
+          body.stiffness   = Testing::graphite_epoxy(fibre);
+          const auto found = exact_quantities(body, {0.3, 0.8});
+          EXPECT_NEAR(found.K_I, 1.3, 1e-4);
+          EXPECT_NEAR(found.K_II, -0.7, 1e-4);
+          EXPECT_NEAR(found.T_stress, 0.4, 5e-4);
+          EXPECT_NEAR(found.J, body.exact_J(), 1e-4);
+        }
+  }
+
+  TEST(DomainIntegral, without_near_tip_fields_only_J)
+  {
+    NearTipCase body;
+    const auto  frame = body.frame();
+    const auto  found = fracture_quantities<2>(
+      polar_points(body, {0.3, 0.8}),
+      frame.axes[0],
+      [&](const dealii::Point<2> &) { return frame; },
+      1.,
+      std::nullopt,
+      MPI_COMM_SELF);
+    EXPECT_FALSE(found.has_factors);
+    EXPECT_NEAR(found.J, body.exact_J(), 1e-4);
   }
 
   TEST(DomainIntegral, does_not_depend_on_the_annulus)

@@ -1,118 +1,20 @@
-#include <perimorph/fracture/stress_points.h>
-#include <perimorph/materials/material_factory.h>
-
 #include <deal.II/base/mpi.h>
 
-#include "near_tip_bodies.h"
+#include "near_tip_plate.h"
 #include <gtest/gtest.h>
 
 namespace
 {
   using namespace Perimorph;
   using namespace Perimorph::Fracture;
-  using Testing::NearTipCase;
-
-  enum class Source
-  {
-    cells,                ///< full law everywhere, one-sided fits at the crack
-    families,             ///< alpha = 1
-    families_and_elements ///< families beside the crack, blended
-  };
-
-  /// A plate of 2 by 2 whose nodes move by the exact field times a factor.
-  struct Plate
-  {
-    NearTipCase                       field;
-    double                            h;
-    Mesh::NodalMesh<2>                mesh;
-    MaterialList<2>                   materials;
-    std::vector<dealii::Tensor<1, 2>> displacement;
-    Bonds::CrackSet<2>                cracks;
-
-    Plate(const unsigned int n_cells,
-          const double       angle,
-          const double       distortion,
-          const double       factor = 1.,
-          const std::string &law    = "linear elastic")
-      : h(2. / n_cells)
-    {
-      field.angle = angle;
-      // between the nodes along the crack or somewhere in a cell
-      field.tip = dealii::Point<2>(0.25 * h, (angle == 0. ? -0.5 : -0.1) * h);
-      mesh      = Testing::structured_mesh<2>({{n_cells, n_cells}},
-                                         dealii::Point<2>(-1., -1.),
-                                         dealii::Point<2>(1., 1.),
-                                         distortion);
-      materials.push_back(
-        Materials::make_material<2>(law,
-                                    1.,
-                                    Testing::near_tip_poissons_ratio,
-                                    field.state));
-      for (const auto &x : mesh.nodes)
-        displacement.push_back(factor * field.at(x).displacement);
-      cracks = field.crack();
-    }
-
-    StressPointSet<2>
-    points(const Source source) const
-    {
-      const DeformedBody<2> body   = {mesh, materials, displacement};
-      const auto            region = nodes_within<2>(mesh, {field.tip}, 0.9);
-      StressPointSet<2>     set;
-      if (source == Source::cells)
-        {
-          add_cell_points(body,
-                          cracks,
-                          *visible_fit(mesh, cracks),
-                          region,
-                          set);
-          return set;
-        }
-      std::vector<double> alpha(mesh.n_nodes(), 1.);
-      if (source == Source::families_and_elements)
-        for (unsigned int n = 0; n < mesh.n_nodes(); ++n)
-          {
-            const double distance =
-              std::abs((mesh.nodes[n] - field.tip) * field.frame().axes[1]);
-            alpha[n] = std::clamp(2.5 - distance / (4. * h), 0., 1.);
-          }
-      const Materials::LameConstants lame =
-        Materials::lame_constants(1.,
-                                  Testing::near_tip_poissons_ratio,
-                                  field.state);
-      const auto families =
-        Testing::cut_families(mesh, alpha, 2., cracks, {lame.mu, 1.1, 0.43});
-      add_element_points(body, alpha, region, set);
-      add_family_points(body, families, region, set);
-      return set;
-    }
-
-    FractureQuantities
-    quantities(StressPointSet<2> set,
-               const Annulus    &annulus,
-               const MPI_Comm    communicator = MPI_COMM_SELF) const
-    {
-      return fracture_quantities(set,
-                                 mesh,
-                                 field.frame(),
-                                 annulus,
-                                 field.constants(),
-                                 communicator);
-    }
-
-    double
-    exact_J() const
-    {
-      return (field.K_I * field.K_I + field.K_II * field.K_II) /
-             field.constants().plane_modulus();
-    }
-  };
+  using Testing::Plate;
+  using Testing::Source;
 
   /// Largest of the relative errors of J, K_I and K_II.
   double
   largest_error(const Plate &plate, const FractureQuantities &found)
   {
-    return std::max({std::abs(found.J / plate.exact_J() - 1.),
+    return std::max({std::abs(found.J / plate.field.exact_J() - 1.),
                      std::abs(found.K_I / plate.field.K_I - 1.),
                      std::abs(found.K_II / plate.field.K_II - 1.)});
   }
@@ -121,13 +23,14 @@ namespace
   /// measured.
   void
   expect_convergence(const Source                 source,
-                     const std::array<double, 3> &tolerance)
+                     const std::array<double, 3> &tolerance,
+                     const Testing::NearTipCase  &body = {})
   {
     for (const double angle : {0., 0.52})
       for (const double distortion : {0., 0.2})
         for (unsigned int level = 0; level < 3; ++level)
           {
-            const Plate plate(20u << level, angle, distortion);
+            const Plate plate(20u << level, angle, distortion, 1., "", body);
             const auto  set = plate.points(source);
             EXPECT_EQ(set.n_without_stress, 0u);
             for (const Annulus annulus : {Annulus{0.3, 0.8}, Annulus{0.4, 0.9}})
@@ -151,6 +54,28 @@ namespace
   TEST(StressPoints, families_and_elements_converge_to_the_exact_factors)
   {
     expect_convergence(Source::families_and_elements, {{2.2e-2, 6.3e-3, 2e-3}});
+  }
+
+  Testing::NearTipCase
+  anisotropic_body()
+  {
+    Testing::NearTipCase body;
+    body.stiffness = Testing::graphite_epoxy(0.9);
+    return body;
+  }
+
+  TEST(StressPoints, cells_converge_in_an_anisotropic_body)
+  {
+    expect_convergence(Source::cells,
+                       {{8.3e-3, 8.6e-4, 2.8e-4}},
+                       anisotropic_body());
+  }
+
+  TEST(StressPoints, families_converge_in_an_anisotropic_body)
+  {
+    expect_convergence(Source::families,
+                       {{4.9e-2, 4.2e-3, 1.2e-3}},
+                       anisotropic_body());
   }
 
   // Each part of the body once: the shares of all points add up to its area.

@@ -37,7 +37,7 @@ namespace
                                 const PlaneState   state)
   {
     const Materials::LinearElastic<dim> law(2.6, 0.3, state);
-    const auto                          constants = near_tip_constants(law);
+    const auto                          constants = isotropic_constants(law);
     const auto                          frame     = turned_frame<dim>();
     const auto                          at = [&](const dealii::Point<dim> &x) {
       return near_tip_state(field, constants, frame, x);
@@ -95,13 +95,13 @@ namespace
   // Definition: (s_12, s_22, s_23) = (K_II, K_I, K_III) / sqrt(2 pi r) ahead.
   TEST(WilliamsField, has_unit_stress_intensity_ahead_of_the_tip)
   {
-    const NearTipConstants constants = {1., 1.8};
-    const auto             frame     = turned_frame<3>();
-    const auto             ahead     = frame.origin + 0.25 * frame.axes[0];
-    const double           expected  = 1. / std::sqrt(2. * pi * 0.25);
-    const NearTipField     fields[]  = {NearTipField::sliding,
-                                        NearTipField::opening,
-                                        NearTipField::tearing};
+    const IsotropicConstants constants = {1., 1.8};
+    const auto               frame     = turned_frame<3>();
+    const auto               ahead     = frame.origin + 0.25 * frame.axes[0];
+    const double             expected  = 1. / std::sqrt(2. * pi * 0.25);
+    const NearTipField       fields[]  = {NearTipField::sliding,
+                                          NearTipField::opening,
+                                          NearTipField::tearing};
     for (int mode = 0; mode < 3; ++mode)
       {
         const auto traction =
@@ -126,7 +126,7 @@ namespace
           std::cos(angle) * frame.axes[0] + std::sin(angle) * frame.axes[1];
         force += 2. * pi * 0.3 / n *
                  (near_tip_state(NearTipField::point_force,
-                                 {1., 2.},
+                                 IsotropicConstants{1., 2.},
                                  frame,
                                  frame.origin + 0.3 * normal)
                     .stress *
@@ -138,7 +138,7 @@ namespace
   TEST(WilliamsField, constants_of_plane_stress_and_plane_strain)
   {
     const auto constants = [](const PlaneState state) {
-      return near_tip_constants(Materials::LinearElastic<2>(2.6, 0.3, state));
+      return isotropic_constants(Materials::LinearElastic<2>(2.6, 0.3, state));
     };
     EXPECT_NEAR(constants(PlaneState::plane_stress).kolosov, 2.7 / 1.3, 1e-14);
     EXPECT_NEAR(constants(PlaneState::plane_strain).kolosov, 1.8, 1e-14);
