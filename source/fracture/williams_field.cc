@@ -1,4 +1,6 @@
+#include <perimorph/base/exceptions.h>
 #include <perimorph/fracture/williams_field.h>
+#include <perimorph/materials/anisotropic_stiffness.h>
 
 #include <cmath>
 #include <complex>
@@ -97,6 +99,12 @@ namespace Perimorph::Fracture
   NearTipConstants
   near_tip_constants(const Materials::Material<dim> &material)
   {
+    if (Materials::is_anisotropic(material.name()))
+      throw Base::InputError(Base::InputMessage{
+        "parameter 'Material / law'",
+        "'" + material.name() + "' at a crack tip",
+        "isotropic laws where stress intensity factors are computed",
+        ""});
     const dealii::Tensor<2, dim> rest;
     const auto                   A      = material.tangent(rest);
     const double                 mu     = A[0][1][0][1];

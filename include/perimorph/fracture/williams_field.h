@@ -44,6 +44,7 @@ namespace Perimorph::Fracture
 
   /// From the tangent of an isotropic law at rest; in 3D those of plane strain
   /// along the front.
+  /// @throws Base::InputError  the law is not isotropic
   template <int dim>
   NearTipConstants
   near_tip_constants(const Materials::Material<dim> &material);
