@@ -89,16 +89,20 @@ namespace Perimorph::Application
     prm.leave_subsection();
 
     prm.enter_subsection("Material");
+    auto law_names = Materials::law_names();
+    for (const auto &name : Materials::anisotropic_law_names())
+      law_names.push_back(name);
     prm.add_parameter("law",
                       law,
-                      "Isotropic elastic law: linear elastic is of small "
-                      "strain, the others of finite strain. prototype "
-                      "microelastic is the continuum of bond-based "
-                      "peridynamics.",
-                      choice(Materials::law_names()));
+                      "Elastic law: linear elastic (isotropic), orthotropic "
+                      "and anisotropic are of small strain, the others "
+                      "isotropic and of finite strain. prototype microelastic "
+                      "is the continuum of bond-based peridynamics.",
+                      choice(law_names));
     prm.add_parameter("Young's modulus",
                       youngs_modulus,
-                      "E [stress, any consistent unit]; has no default.",
+                      "E [stress, any consistent unit] of an isotropic law; "
+                      "has no default.",
                       Double());
     prm.add_parameter(
       "Poisson's ratio",
@@ -106,11 +110,6 @@ namespace Perimorph::Application
       "nu [-]. Bond-based peridynamics has a fixed value: 1/3 in "
       "plane stress, 1/4 in plane strain and 3D.",
       Double());
-    prm.add_parameter("density",
-                      density,
-                      "Mass per volume of the reference state, of bodies that "
-                      "move ('Time integration').",
-                      Double(0.));
     prm.add_parameter(
       "state",
       state,
@@ -118,11 +117,38 @@ namespace Perimorph::Application
       "strain in 2D, three-dimensional in 3D.",
       choice(
         {"automatic", "plane stress", "plane strain", "three-dimensional"}));
-    prm.add_parameter("by volume",
-                      by_volume,
-                      "Other constants in named volumes: inclusion: Young's "
-                      "modulus = 10, Poisson's ratio = 0.2; ...",
-                      Anything());
+    prm.add_parameter(
+      "constants",
+      material_constants,
+      "Of the other two laws. orthotropic: E1 = 144.8e9, E2 = 11.7e9, nu12 = "
+      "0.21, G12 = 9.66e9 in plane stress; also E3, nu13, nu23 in plane "
+      "strain, "
+      "also G13, G23 in 3D; nu_ij = -e_jj / e_ii in uniaxial stress along i. "
+      "anisotropic: C11, C12, ..., the upper half of the stiffness in the "
+      "order xx, yy, zz, yz, xz, xy, of the model as it is: in 2D those of the "
+      "plane (C11, C12, C16, C22, C26, C66), and C13, C23, C36 for the stress "
+      "across it in plane strain. What is not given is 0.",
+      Anything());
+    prm.add_parameter(
+      "orientation",
+      orientation,
+      "Of the material axes: angle of axis 1 from x, anticlockwise about z "
+      "[degrees], a number or an expression in x, y, z (per cell). In 3D also "
+      "x = 90, y = 0, z = 30: turns about the axes, in this order.",
+      Anything());
+    prm.add_parameter("density",
+                      density,
+                      "Mass per volume [any consistent unit]; 0: not given.",
+                      Double(0.));
+    prm.add_parameter(
+      "by volume",
+      by_volume,
+      "Other values in named volumes: inclusion: Young's modulus = 10, "
+      "Poisson's ratio = 0.2; ply: E1 = 140, E2 = 10, nu12 = 0.3, G12 = 5, "
+      "orientation = 45, density = 1.6; ... The constants say the law; "
+      "those of the same law that are not given, density and orientation are "
+      "those of the rest. In 3D also orientation x, y, z.",
+      Anything());
     prm.leave_subsection();
 
     prm.enter_subsection("Peridynamics");

@@ -1,4 +1,5 @@
 #include <perimorph/application/post_processing.h>
+#include <perimorph/fem/lumped_mass.h>
 #include <perimorph/fem/body_force.h>
 
 #include <algorithm>
@@ -154,6 +155,15 @@ namespace Perimorph::Application
                               state.time);
     for (auto &force : divergence)
       force *= -1.;
+    if (!state.acceleration.empty())
+      {
+        divergence.resize(mesh.nodal().n_nodes());
+        const auto mass =
+          Fem::lumped_mass<dim>(mesh.nodal(), materials.density);
+        for (unsigned int n = 0; n < divergence.size(); ++n)
+          divergence[n] +=
+            mass[n] / mesh.nodal().volume[n] * state.acceleration[n];
+      }
     return {
       {mesh.nodal(), materials.laws, state.displacement, std::move(divergence)},
       cracks,

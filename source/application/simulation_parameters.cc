@@ -107,67 +107,6 @@ namespace Perimorph::Application
 
   template <int dim>
   void
-  SimulationParameters<dim>::read_materials(const ParameterTexts      &texts,
-                                            Base::InputErrorCollector &errors)
-  {
-    law   = texts.law;
-    state = dim == 2 ? Materials::PlaneState::plane_strain
-                     : Materials::PlaneState::three_dimensional;
-    if (texts.state != "automatic")
-      state = from_name<Materials::PlaneState>(
-        texts.state,
-        {"plane stress", "plane strain", "three-dimensional"});
-    if ((dim == 2) == (state == Materials::PlaneState::three_dimensional))
-      errors.add_parameter(
-        "Material / state",
-        "'" + texts.state + "' with Dimension = " + std::to_string(dim),
-        dim == 2 ? "plane stress, plane strain" : "three-dimensional");
-
-    const auto check = [&errors](const std::string       &path,
-                                 const MaterialConstants &constants,
-                                 const std::string       &of) {
-      if (!(constants.youngs_modulus > 0.) ||
-          !std::isfinite(constants.youngs_modulus))
-        errors.add_parameter(path + "Young's modulus" + of,
-                             constants.youngs_modulus == 0.
-                               ? "nothing or 0"
-                               : number_text(constants.youngs_modulus),
-                             "a number > 0");
-      if (!(constants.poissons_ratio > -1. && constants.poissons_ratio < 0.5))
-        errors.add_parameter(path + "Poisson's ratio" + of,
-                             number_text(constants.poissons_ratio),
-                             "more than -1 and less than 0.5");
-    };
-    material = {texts.youngs_modulus, texts.poissons_ratio};
-    density  = texts.density;
-    check("Material / ", material, "");
-
-    const std::string path = "Material / by volume";
-    for (const auto &entry : Parameters::parse_named_components(
-           path,
-           texts.by_volume,
-           {"Young's modulus", "Poisson's ratio"},
-           Parameters::NameRule::required,
-           errors))
-      {
-        MaterialConstants constants = material;
-        for (const auto &component : entry.components)
-          {
-            const Parameters::Expression value(path,
-                                               component.second,
-                                               this->constants,
-                                               errors);
-            (component.first == "Young's modulus" ? constants.youngs_modulus
-                                                  : constants.poissons_ratio) =
-              value.value(dealii::Point<dim>(), 0.);
-          }
-        check("Material / by volume: ", constants, " of " + entry.name);
-        volume_materials[entry.name] = constants;
-      }
-  }
-
-  template <int dim>
-  void
   SimulationParameters<dim>::read_region(const ParameterTexts      &texts,
                                          Base::InputErrorCollector &errors)
   {
@@ -357,7 +296,18 @@ namespace Perimorph::Application
   {
     const bool bonds = coupling.model == Coupling::Model::bond_based &&
                        region.mode != Mesh::Mode::finite_elements;
-    const bool microelastic = law == "prototype microelastic";
+    const auto &law          = material.law;
+    const bool  microelastic = law == "prototype microelastic";
+    if (bonds && has_anisotropic_laws())
+      {
+        errors.add_parameter("Material / law",
+                             "'orthotropic' or 'anisotropic' with bond-based "
+                             "peridynamics",
+                             "linear elastic in all volumes",
+                             "Pair forces along bonds do not know material "
+                             "axes; use model = correspondence.");
+        return;
+      }
     if (bonds && finite_strain() && !microelastic)
       errors.add_parameter("Material / law",
                            "'" + law + "' with bond-based peridynamics",
@@ -395,13 +345,6 @@ namespace Perimorph::Application
     for (const auto &entry : volume_materials)
       check("Material / by volume: Poisson's ratio of " + entry.first,
             entry.second.poissons_ratio);
-  }
-
-  template <int dim>
-  bool
-  SimulationParameters<dim>::finite_strain() const
-  {
-    return law != "linear elastic";
   }
 
   template <int dim>

@@ -94,12 +94,18 @@ namespace Perimorph::Application
                            "consistent, energy blending",
                            "Blended equations have no energy, so that motion "
                            "may gain it.");
-    if (!(density > 0.))
-      errors.add_parameter("Material / density",
-                           "nothing or 0",
-                           "a number > 0",
-                           "Bodies that move need it (scheme = " +
-                             texts.scheme + ").");
+    const auto check_density = [&](const std::string       &entry,
+                                   const MaterialConstants &constants) {
+      if (!(constants.density > 0.))
+        errors.add_parameter(entry,
+                             "nothing or 0",
+                             "a number > 0",
+                             "Bodies that move need it (scheme = " +
+                               texts.scheme + ").");
+    };
+    check_density("Material / density", material);
+    for (const auto &[name, constants] : volume_materials)
+      check_density("Material / by volume: density of " + name, constants);
     for (const auto &[entry, interval] :
          {std::make_pair("output interval", texts.output_interval),
           std::make_pair("field interval", texts.field_interval)})

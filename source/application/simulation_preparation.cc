@@ -6,7 +6,6 @@
 #include <perimorph/base/log.h>
 #include <perimorph/base/name_help.h>
 #include <perimorph/damage/saw_tooth.h>
-#include <perimorph/materials/material_factory.h>
 
 #include <algorithm>
 #include <cmath>
@@ -42,8 +41,9 @@ namespace Perimorph::Application
                                                 : Damage::FamilyShape::ball);
         warn_of_bond_criteria();
       }
-    auto ratios = std::make_pair(parameters.material.poissons_ratio,
-                                 parameters.material.poissons_ratio);
+    // Anisotropic laws have no Poisson's ratio: 0.
+    std::pair<double, double> ratios(parameters.material.poissons_ratio,
+                                     parameters.material.poissons_ratio);
     for (const auto &entry : parameters.volume_materials)
       {
         const double ratio = entry.second.poissons_ratio;
@@ -228,29 +228,10 @@ namespace Perimorph::Application
   void
   Simulation<dim>::assign_materials()
   {
-    const auto add = [this](const MaterialConstants &constants) {
-      materials.laws.push_back(
-        Materials::make_material<dim>(parameters.law,
-                                      constants.youngs_modulus,
-                                      constants.poissons_ratio,
-                                      parameters.state));
-      materials.bond_constants.push_back(
-        {constants.youngs_modulus, parameters.state});
-      materials.density.push_back(parameters.density);
-    };
-    materials.laws.clear();
-    materials.bond_constants.clear();
-    materials.density.clear();
-    add(parameters.material);
-    auto &nodal = mesh->nodal();
-    for (const auto &entry : parameters.volume_materials)
-      {
-        const unsigned int index = materials.laws.size();
-        for (const unsigned int c :
-             mesh->volume(entry.first, "parameter 'Material / by volume'"))
-          nodal.cell_material[c] = index;
-        add(entry.second);
-      }
+    materials = make_body_materials<dim>(*mesh,
+                                         parameters.material,
+                                         parameters.volume_materials,
+                                         parameters.state);
   }
 
   template <int dim>

@@ -111,22 +111,6 @@ namespace Perimorph::Coupling
       return weights;
     }
 
-    template <int dim>
-    ElasticConstants
-    constants_at_rest(const Materials::Material<dim> &law)
-    {
-      const auto   A      = law.tangent(dealii::Tensor<2, dim>());
-      const double lambda = A[0][0][1][1];
-      const double mu     = A[0][1][0][1];
-      if (dim == 2)
-        return {mu,
-                4. * mu * (lambda + mu) / (lambda + 2. * mu),
-                lambda / (lambda + 2. * mu)};
-      return {mu,
-              mu * (3. * lambda + 2. * mu) / (lambda + mu),
-              0.5 * lambda / (lambda + mu)};
-    }
-
     std::vector<double>
     complement(const std::vector<double> &alpha)
     {
@@ -155,7 +139,7 @@ namespace Perimorph::Coupling
       {},
       {}};
     for (const auto &law : laws)
-      options.constants.push_back(constants_at_rest(*law));
+      options.constants.push_back(elastic_constants(*law));
     return options;
   }
 
@@ -318,7 +302,7 @@ namespace Perimorph::Coupling
         owned.push_back(partition().local(n));
     std::vector<double> stiffness(
       owned.size(),
-      share * constants_at_rest(*materials.laws[0]).youngs_modulus *
+      share * elastic_constants(*materials.laws[0]).along[0].youngs_modulus *
         std::pow(spacing, dim - 2));
     contributions.push_back(
       std::make_unique<Fem::NodalSprings<dim>>("springs of loose parts",

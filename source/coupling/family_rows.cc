@@ -12,24 +12,21 @@ namespace Perimorph::Coupling
 {
   namespace
   {
-    /// Pure bending of a beam along axis a in the plane (a, b), curvature 1:
-    /// strain -x_b along a, uniaxial stress.
+    /// Pure bending in uniaxial stress, linear in x_b: strain -x_b e, with e
+    /// that of the stress (UniaxialStress::strain). A beam along axis a bends
+    /// with curvature 1 and, where e has shear of the axes, turns or twists.
     template <int dim>
     dealii::Tensor<1, dim>
-    bending_field(const int                     a,
-                  const int                     b,
-                  const double                  poissons_ratio,
-                  const dealii::Tensor<1, dim> &x)
+    bending_field(const int                            b,
+                  const dealii::SymmetricTensor<2, 3> &e,
+                  const dealii::Tensor<1, dim>        &x)
     {
-      dealii::Tensor<1, dim> u;
-      u[a] = -x[a] * x[b];
-      u[b] = 0.5 * (x[a] * x[a] + poissons_ratio * x[b] * x[b]);
-      for (int c = 0; c < dim; ++c)
-        if (c != a && c != b)
-          {
-            u[b] -= 0.5 * poissons_ratio * x[c] * x[c];
-            u[c] += poissons_ratio * x[b] * x[c];
-          }
+      dealii::Tensor<1, dim> e_x;
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j)
+          e_x[i] += e[i][j] * x[j];
+      auto u = -x[b] * e_x;
+      u[b] += 0.5 * (x * e_x);
       return u;
     }
 
@@ -62,9 +59,8 @@ namespace Perimorph::Coupling
             {
               dealii::Tensor<2, dim> H;
               const auto             eta = [&](const std::size_t bond) {
-                return bending_field<dim>(a,
-                                          b,
-                                          constants.poissons_ratio,
+                return bending_field<dim>(b,
+                                          constants.along[a].strain,
                                           mesh.nodes[set.neighbor[bond]] -
                                             mesh.nodes[node]);
               };
@@ -76,7 +72,7 @@ namespace Perimorph::Coupling
                     mesh.nodes[set.neighbor[j]] - mesh.nodes[node];
                   const double energy =
                     set.bond_weight[j] * (eta(j) - H * xi).norm_square() /
-                    (constants.youngs_modulus * variance[b]);
+                    (constants.along[a].youngs_modulus * variance[b]);
                   for (int d = 0; d < dim; ++d)
                     shares(row, d) += energy * squares(j)[d];
                 }

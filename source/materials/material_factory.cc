@@ -1,5 +1,6 @@
 #include <perimorph/base/exceptions.h>
 #include <perimorph/base/name_help.h>
+#include <perimorph/materials/anisotropic_elastic.h>
 #include <perimorph/materials/hencky.h>
 #include <perimorph/materials/linear_elastic.h>
 #include <perimorph/materials/material_factory.h>
@@ -51,6 +52,28 @@ namespace Perimorph
         ""});
     }
 
+    template <int dim>
+    std::unique_ptr<Material<dim>>
+    make_anisotropic_material(const std::string          &law,
+                              const NamedConstants       &constants,
+                              const PlaneState            state,
+                              const dealii::Tensor<2, 3> &axes)
+    {
+      return std::make_unique<AnisotropicElastic<dim>>(
+        law,
+        rotate(make_stiffness<dim>(law, constants, state), axes));
+    }
+
+    template std::unique_ptr<Material<2>>
+    make_anisotropic_material<2>(const std::string &,
+                                 const NamedConstants &,
+                                 PlaneState,
+                                 const dealii::Tensor<2, 3> &);
+    template std::unique_ptr<Material<3>>
+    make_anisotropic_material<3>(const std::string &,
+                                 const NamedConstants &,
+                                 PlaneState,
+                                 const dealii::Tensor<2, 3> &);
     template std::unique_ptr<Material<2>>
     make_material<2>(const std::string &, double, double, PlaneState);
     template std::unique_ptr<Material<3>>

@@ -7,6 +7,7 @@ import sys
 
 import bad_input_body
 import bad_input_files
+import bad_input_materials
 from case_files import BOND_BASED, SOLID, parameter_text
 from harness import Failures, Runner, finish, parse_arguments
 
@@ -19,6 +20,7 @@ TABLES = {
     "conditions": bad_input_body.CONDITIONS,
     "quantities": bad_input_body.QUANTITIES,
     "breaking": bad_input_body.BREAKING,
+    "materials": bad_input_materials.MATERIALS,
 }
 # Rows that are also run on 3 ranks: one for each place in the program that
 # finds errors.

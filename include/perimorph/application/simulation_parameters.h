@@ -1,10 +1,10 @@
 #pragma once
 
+#include <perimorph/application/body_materials.h>
 #include <perimorph/base/exceptions.h>
 #include <perimorph/coupling/coupled_problem.h>
 #include <perimorph/damage/breaking_rule.h>
 #include <perimorph/fem/boundary_conditions.h>
-#include <perimorph/materials/linear_elastic.h>
 #include <perimorph/mesh/refinement_rule.h>
 #include <perimorph/parameters/lists.h>
 #include <perimorph/parameters/polylines.h>
@@ -47,6 +47,7 @@ namespace Perimorph::Application
 
     std::string law = "linear elastic", state = "automatic", by_volume;
     double      youngs_modulus = 0., poissons_ratio = 0., density = 0.;
+    std::string material_constants, orientation;
 
     std::string model = "correspondence", around, core_size = "automatic",
                 blending_width = "automatic", blending_function = "cubic",
@@ -97,13 +98,6 @@ namespace Perimorph::Application
 
     bool write_fields = true, write_stress = true, write_particles = true,
          write_virial_stress = false, write_checkpoints = true;
-  };
-
-  /// Elastic constants of one material, before laws are made of them.
-  struct MaterialConstants
-  {
-    double youngs_modulus;
-    double poissons_ratio;
   };
 
   /// A CSV file with reference values at points.
@@ -188,9 +182,8 @@ namespace Perimorph::Application
     std::map<std::string, double> geometry_parameters;
     Mesh::RefinementParameters    refinement;
 
-    std::string                              law;
     Materials::PlaneState                    state;
-    MaterialConstants                        material;
+    MaterialConstants                        material; ///< rest_of_body
     std::map<std::string, MaterialConstants> volume_materials;
 
     Mesh::RegionParameters            region;
@@ -205,7 +198,6 @@ namespace Perimorph::Application
     unsigned int                    maximum_arc_steps;
     Solvers::LoadSteppingParameters load_stepping;
     TimeIntegrationParameters<dim>  time_integration;
-    double                          density;
 
     Solvers::LinearSolverKind linear_solver;
     Solvers::TangentKind      tangent;
@@ -228,9 +220,11 @@ namespace Perimorph::Application
     bool write_fields, write_stress, write_particles, write_virial_stress,
       write_checkpoints;
 
-    /// True if the law is not that of small strain.
+    /// True if the laws are not those of small strain.
     bool
     finite_strain() const;
+    bool
+    has_anisotropic_laws() const;
 
     /// Times of the load steps, or of the states of a motion that are kept.
     std::vector<double>
@@ -240,6 +234,23 @@ namespace Perimorph::Application
     void
     read_materials(const ParameterTexts      &texts,
                    Base::InputErrorCollector &errors);
+    void
+    read_rest_of_body(const ParameterTexts      &texts,
+                      Base::InputErrorCollector &errors);
+    /// @param of  " of NAME", or empty: the rest of the body
+    bool
+    check_material(const std::string         &path,
+                   const std::string         &of,
+                   const MaterialConstants   &constants,
+                   Base::InputErrorCollector &errors) const;
+    void
+    check_orientation(Base::InputErrorCollector &errors) const;
+    /// An expression of constants only.
+    double
+    number(const std::string         &path,
+           const std::string         &name,
+           const std::string         &text,
+           Base::InputErrorCollector &errors) const;
     void
     read_refinement(const ParameterTexts      &texts,
                     Base::InputErrorCollector &errors);

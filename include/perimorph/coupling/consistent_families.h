@@ -1,6 +1,7 @@
 #pragma once
 
 #include <perimorph/bonds/crack_set.h>
+#include <perimorph/coupling/elastic_constants.h>
 #include <perimorph/mesh/nodal_mesh.h>
 #include <perimorph/peridynamics/family_set.h>
 #include <perimorph/peridynamics/influence_function.h>
@@ -35,14 +36,6 @@ namespace Perimorph::Coupling
   {
     consistent,  ///< exact cracked patch test (numerics-cracks.md, section 8)
     shape_tensor ///< intact bonds and their shape tensor only
-  };
-
-  /// Elastic constants of a material at rest, of its plane in 2D.
-  struct ElasticConstants
-  {
-    double shear_modulus;
-    double youngs_modulus; ///< stress over strain in uniaxial stress
-    double poissons_ratio; ///< lateral contraction there
   };
 
   /// What the families of the correspondence model are built from.

@@ -78,13 +78,22 @@ namespace Perimorph::Coupling
                     const typename Fem::ElasticCells<dim>::MaterialList &laws);
 
   /// The materials of the body: laws for elements and families, constants for
-  /// bonds; index = NodalMesh::cell_material.
+  /// bonds; index = NodalMesh::cell_material. A material whose orientation
+  /// varies has one law per orientation.
   template <int dim>
   struct BodyMaterials
   {
     typename Fem::ElasticCells<dim>::MaterialList laws;
-    std::vector<BondMaterial>                     bond_constants;
-    std::vector<double>                           density;
+    /// Without meaning for anisotropic laws.
+    std::vector<BondMaterial> bond_constants;
+
+    // Of each law; the problem of statics does not ask.
+    std::vector<unsigned int> material_of_law; ///< index into names
+    /// Material axes in rows (Materials::material_axes()).
+    std::vector<dealii::Tensor<2, 3>> axes;
+    std::vector<double> density; ///< [mass / volume], 0: not given
+
+    std::vector<std::string> names; ///< of the materials
   };
 
   /// Peridynamics of a body before bonds broke one by one: what takes time to

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <perimorph/materials/anisotropic_stiffness.h>
 #include <perimorph/materials/material.h>
 #include <perimorph/materials/plane_state.h>
 
@@ -11,7 +12,8 @@ namespace Perimorph
 {
   namespace Materials
   {
-    /// Names of all laws, as in the parameter file and Material::name.
+    /// Names of the isotropic laws, as in the parameter file and
+    /// Material::name.
     const std::vector<std::string> &
     law_names();
 
@@ -26,5 +28,15 @@ namespace Perimorph
                   double             youngs_modulus,
                   double             poissons_ratio,
                   PlaneState         state);
+
+    /// @param law        one of anisotropic_law_names()
+    /// @param constants  that pass check_constants()
+    /// @param axes       material_axes(); axis 3 along z in 2D
+    template <int dim>
+    std::unique_ptr<Material<dim>>
+    make_anisotropic_material(const std::string          &law,
+                              const NamedConstants       &constants,
+                              PlaneState                  state,
+                              const dealii::Tensor<2, 3> &axes);
   } // namespace Materials
 } // namespace Perimorph

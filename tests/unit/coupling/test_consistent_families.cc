@@ -1,4 +1,5 @@
 #include <perimorph/coupling/consistent_families.h>
+#include <perimorph/materials/linear_elastic.h>
 #include <perimorph/mesh/cell_geometry.h>
 #include <perimorph/mesh/region_map.h>
 
@@ -12,6 +13,18 @@ namespace Perimorph::Coupling
   namespace
   {
     using Mesh::BlendingFunction;
+
+    /// Poisson's ratio 1/4, of the plane in 2D.
+    template <int dim>
+    ElasticConstants
+    isotropic(const double youngs_modulus)
+    {
+      return elastic_constants(Materials::LinearElastic<dim>(
+        youngs_modulus,
+        0.25,
+        dim == 2 ? Materials::PlaneState::plane_stress
+                 : Materials::PlaneState::three_dimensional));
+    }
 
     /// Alpha of a ball in the middle of the unit square or cube.
     template <int dim>
@@ -95,7 +108,7 @@ namespace Perimorph::Coupling
     expect_consistent(const Mesh::NodalMesh<dim> &mesh, const double ratio)
     {
       FamilyParameters parameters;
-      parameters.constants = {{1., 2.5, 0.25}};
+      parameters.constants = {isotropic<dim>(2.5)};
       for (const auto support :
            {GradientSupport::adjacent_cells, GradientSupport::horizon})
         for (const auto function :
@@ -137,7 +150,7 @@ namespace Perimorph::Coupling
     const auto       mesh  = Testing::unit_mesh<2>(16, 0.2);
     const auto       alpha = ball_alpha(mesh, BlendingFunction::cubic);
     FamilyParameters parameters;
-    parameters.constants = {{1., 2.5, 0.25}};
+    parameters.constants = {isotropic<2>(2.5)};
     const auto errors    = consistency(
       mesh,
       alpha,
@@ -153,7 +166,7 @@ namespace Perimorph::Coupling
     // (2.5, 1.5) h are 2.92 h away, so their corners count: 7 x 5 and 5 x 7
     // nodes together, without the particle 44.
     FamilyParameters parameters;
-    parameters.constants = {{1., 2.5, 0.25}};
+    parameters.constants = {isotropic<2>(2.5)};
     const auto largest   = [](const auto &set) {
       std::size_t size = 0;
       for (std::size_t p = 0; p < set.n_particles(); ++p)
@@ -204,7 +217,7 @@ namespace Perimorph::Coupling
     // through kappa = gamma mu tr(K^-1) / 2 = mu / (14 h^4).
     const auto       mesh = Testing::unit_mesh<2>(10);
     FamilyParameters parameters;
-    parameters.constants = {{3., 7.5, 0.25}};
+    parameters.constants = {isotropic<2>(7.5)};
     parameters.influence = Peridynamics::InfluenceFunction::constant;
     const auto set       = classical_families(mesh,
                                         std::vector<double>(mesh.n_nodes(), 1.),
@@ -226,7 +239,7 @@ namespace Perimorph::Coupling
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       mesh.cell_material[c] = mesh.cell_centroid[c][0] > 0.5 ? 1 : 0;
     FamilyParameters parameters;
-    parameters.constants = {{1., 2.5, 0.25}, {10., 25., 0.25}};
+    parameters.constants = {isotropic<2>(2.5), isotropic<2>(25.)};
     const auto alpha     = std::vector<double>(mesh.n_nodes(), 1.);
     const auto set =
       consistent_families(mesh, alpha, horizons(mesh, 2.), parameters);

@@ -1,4 +1,5 @@
 #include <perimorph/coupling/coupled_problem.h>
+#include <perimorph/materials/material_factory.h>
 
 #include <gtest/gtest.h>
 #include <harness/distributed_meshes.h>
@@ -15,17 +16,20 @@ namespace Perimorph::Coupling
     template <int dim>
     struct Body
     {
-      Body(const Mesh::NodalMesh<dim>  &nodal,
-           const CouplingParameters    &parameters,
-           const double                 ratio,
-           const Mesh::BlendingFunction blending,
-           const Mesh::Mode             mode = Mesh::Mode::coupled)
+      Body(const Mesh::NodalMesh<dim>               &nodal,
+           const CouplingParameters                 &parameters,
+           const double                              ratio,
+           const Mesh::BlendingFunction              blending,
+           const Mesh::Mode                          mode = Mesh::Mode::coupled,
+           std::unique_ptr<Materials::Material<dim>> law  = nullptr)
         : mesh(Testing::as_gmsh_mesh(nodal), MPI_COMM_WORLD)
       {
         const auto state = dim == 2 ? Materials::PlaneState::plane_strain
                                     : Materials::PlaneState::three_dimensional;
         materials.laws.push_back(
-          std::make_unique<Materials::LinearElastic<dim>>(1., 0.25, state));
+          law
+            ? std::move(law)
+            : Materials::make_material<dim>("linear elastic", 1., 0.25, state));
         materials.bond_constants.push_back({1., state});
 
         Mesh::RegionParameters region_parameters;
@@ -73,6 +77,27 @@ namespace Perimorph::Coupling
       std::unique_ptr<CoupledProblem<dim>> problem;
     };
 
+    /// A ply with E1 / E2 = 12.
+    template <int dim>
+    std::unique_ptr<Materials::Material<dim>>
+    fibres(const std::array<double, 3> &angles)
+    {
+      return Materials::make_anisotropic_material<dim>(
+        "orthotropic",
+        {{"E1", 144.8},
+         {"E2", 11.7},
+         {"E3", 11.7},
+         {"nu12", 0.21},
+         {"nu13", 0.21},
+         {"nu23", 0.4},
+         {"G12", 9.66},
+         {"G13", 9.66},
+         {"G23", 4.}},
+        dim == 2 ? Materials::PlaneState::plane_strain
+                 : Materials::PlaneState::three_dimensional,
+        Materials::material_axes(angles));
+    }
+
     const std::vector<Mesh::BlendingFunction> blendings = {
       Mesh::BlendingFunction::cubic,
       Mesh::BlendingFunction::splice};
@@ -106,6 +131,33 @@ namespace Perimorph::Coupling
       Body<3>(mesh, {Model::correspondence}, 2., Mesh::BlendingFunction::cubic)
         .ghost_force(),
       1e-12);
+  }
+
+  TEST(CoupledProblem, patch_test_is_exact_for_anisotropic_laws)
+  {
+    for (const auto support :
+         {GradientSupport::adjacent_cells, GradientSupport::horizon})
+      for (const double ratio : {1.5, 2., 3.})
+        {
+          CouplingParameters parameters;
+          parameters.support = support;
+          EXPECT_LT(Body<2>(Testing::unit_mesh<2>(12, 0.25),
+                            parameters,
+                            ratio,
+                            Mesh::BlendingFunction::cubic,
+                            Mesh::Mode::coupled,
+                            fibres<2>({0., 0., 33.}))
+                      .ghost_force(),
+                    1e-12);
+        }
+    EXPECT_LT(Body<3>(Testing::unit_mesh<3>(6, 0.25),
+                      {},
+                      1.5,
+                      Mesh::BlendingFunction::cubic,
+                      Mesh::Mode::coupled,
+                      fibres<3>({20., 40., 60.}))
+                .ghost_force(),
+              1e-12);
   }
 
   TEST(CoupledProblem, patch_test_is_exact_without_elements)

@@ -109,17 +109,17 @@ namespace Perimorph::Testing
   /// Families of all particles with alpha > 0, cut by the cracks.
   template <int dim>
   Peridynamics::FamilySet<dim>
-  cut_families(const Mesh::NodalMesh<dim>       &mesh,
-               const std::vector<double>        &alpha,
-               const double                      horizon_ratio,
-               const Bonds::CrackSet<dim>       &cracks,
-               const Coupling::ElasticConstants &constants)
+  cut_families(const Mesh::NodalMesh<dim>     &mesh,
+               const std::vector<double>      &alpha,
+               const double                    horizon_ratio,
+               const Bonds::CrackSet<dim>     &cracks,
+               const Materials::Material<dim> &law)
   {
     std::vector<double> horizon(mesh.n_nodes());
     for (unsigned int n = 0; n < mesh.n_nodes(); ++n)
       horizon[n] = horizon_ratio * mesh.spacing[n];
     Coupling::FamilyParameters parameters;
-    parameters.constants = {constants};
+    parameters.constants = {Coupling::elastic_constants(law)};
     return Coupling::consistent_families(mesh,
                                          alpha,
                                          horizon,

@@ -80,10 +80,7 @@ namespace Perimorph::Testing
               std::abs((mesh.nodes[n] - field.tip) * field.frame().axes[1]);
             alpha[n] = std::clamp(2.5 - distance / (4. * h), 0., 1.);
           }
-      const Materials::LameConstants lame =
-        Materials::lame_constants(1., near_tip_poissons_ratio, field.state);
-      const auto families =
-        cut_families(mesh, alpha, 2., cracks, {lame.mu, 1.1, 0.43});
+      const auto families = cut_families(mesh, alpha, 2., cracks, *field.law());
       add_element_points(body, alpha, region, set);
       add_family_points(body, families, region, set);
       return set;

@@ -218,7 +218,8 @@ namespace
     for (const double h : mesh.spacing)
       horizon.push_back(1.5 * h);
     const auto families =
-      Testing::cut_families(mesh, alpha, 1.5, cracks, {1. / 2.6, 1.1, 0.43});
+      Testing::cut_families(mesh, alpha, 1.5, cracks, *materials[0]);
+
     CrackedBody<2> body = {{mesh, materials, displacement},
                            cracks,
                            alpha,

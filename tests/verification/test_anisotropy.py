@@ -1,0 +1,164 @@
+"""Laws with material axes: homogeneous states to round-off at any angle of the
+fibres, two laws in one body, axes that vary in space, bending.
+
+References: compliance of an off-axis lamina (Jones, Mechanics of Composite
+Materials, Eq. (2.97)); a ring of cylindrical orthotropy under pressure
+(Lekhnitskii, u = A r^k + B r^-k with k^2 = E2 / E1); pure bending off the axes,
+whose strain is the compliance times a stress linear in y, exact.
+"""
+
+import math
+import os
+
+from msh_writer import structured, write_msh
+from verification import MESHES, Study, write_parameters
+
+PLY = {"E1": 144.8, "E2": 11.7, "nu12": .21, "G12": 9.66}
+ANGLES = (0, 30, 45, 60, 90)
+LIMIT = 1e-10
+
+
+def law(angle):
+    return {
+        "Material/law": "orthotropic",
+        "Material/constants": ", ".join("%s = %r" % one
+                                        for one in PLY.items()),
+        "Material/orientation": angle,
+        "Material/state": "plane stress",
+        "Output/fields": "false"
+    }
+
+
+def compliance(angle):
+    """Strains xx, yy and engineering shear xy of a unit stress along x."""
+    E1, E2, nu12, G12 = PLY.values()
+    c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+    return (c**4 / E1 + (1 / G12 - 2 * nu12 / E1) * c**2 * s**2 + s**4 / E2,
+            -nu12 / E1 * (s**4 + c**4) +
+            (1 / E1 + 1 / E2 - 1 / G12) * s**2 * c**2,
+            (2 / E1 + 2 * nu12 / E1 - 1 / G12) * s * c**3 -
+            (2 / E2 + 2 * nu12 / E1 - 1 / G12) * s**3 * c)
+
+
+def off_axis_tension(study):
+    if not study.part("off-axis tension, traction on both ends", "error in u"):
+        return
+    for number, angle in enumerate((0, 17) + ANGLES[1:] + (-30, )):
+        xx, yy, xy = compliance(angle)
+        for support in ("adjacent cells", "horizon"):
+            solution = study.solve(write_parameters(
+                os.path.join(study.folder(), "tension.prm"),
+                dict(law(angle), **{
+                    "Mesh/file": os.path.join(MESHES, "patch_test.geo"),
+                    "Mesh/geometry parameters": "n = 16",
+                    "Peridynamics/around": ("ball 0.5 0.5 0.15", "right",
+                                            "point 1 1; left")[number % 3],
+                    "Peridynamics/core size": "0.1",
+                    "Peridynamics/blending width": "0.15",
+                    "Peridynamics/horizon ratio": (1.5, 2, 3)[number % 3],
+                    "Peridynamics/gradient support": support,
+                    "Boundary conditions/traction": "right: x = 1; left: x = -1",
+                    "Boundary conditions/point displacement":
+                    "0 0: x = 0, y = 0; 1 0: y = 0",
+                    "Reference/displacement":
+                    "x = %.17g*x + %.17g*y, y = %.17g*y" % (xx, xy, yy)
+                })))
+            study.below("%g degrees, %s" % (angle, support),
+                        max(solution["relative_displacement_error"],
+                            solution["ghost_force"]), LIMIT)
+
+
+def uneven(i, j):
+    """Unit square whose nodes are moved, those on its sides and on x = 0.5
+    along them."""
+    x, y = i / 16., j / 16.
+    wave = math.sin(2. * math.pi * y) * math.sin(2. * math.pi * x)
+    return x + .03 * wave, y + .02 * math.cos(7. * x) * math.sin(
+        3. * math.pi * y)
+
+
+def two_laws(study):
+    """Bars in series, no lateral strain: the stress is the same in both."""
+    if not study.part("isotropic beside orthotropic", "error in u"):
+        return
+    for angle, E in ((0, PLY["E1"]), (90, PLY["E2"])):
+        E1, E2, nu12, _ = PLY.values()
+        stiff = E / (1 - nu12**2 * E2 / E1)
+        soft = 3. / (1. - .3**2)
+        folder = study.folder()
+        points, cells, surfaces = structured((16, 16), uneven)
+        volumes = ["fibres" if sum(points[p][0] for p in cell) > 2. else "resin"
+                   for cell in cells]
+        write_msh(os.path.join(folder, "bars.msh"), 2, points, cells, surfaces,
+                  volumes)
+        solution = study.solve(write_parameters(
+            os.path.join(folder, "bars.prm"), {
+                "Mesh/file": "bars.msh",
+                "Material/Young's modulus": 3, "Material/Poisson's ratio": .3,
+                "Material/state": "plane stress",
+                "Material/by volume": "fibres: %s, orientation = %g" % (
+                    law(0)["Material/constants"], angle),
+                "Peridynamics/around": "segment 0.5 0.4 0.5 0.6",
+                "Peridynamics/core size": "0.1",
+                "Peridynamics/blending width": "0.15",
+                "Boundary conditions/symmetry": "x-, y-, y+",
+                "Boundary conditions/traction": "x+: x = 1",
+                "Reference/displacement":
+                "x = min(x, 0.5)/%.17g + max(x - 0.5, 0)/%.17g, y = 0" % (
+                    soft, stiff)
+            }))
+        study.below("fibres at %g degrees" % angle,
+                    solution["relative_displacement_error"], LIMIT)
+
+
+def ring(study):
+    """Fibres around the hole (axis 2 radial), pressure 1 inside; 1 < r < 2."""
+    if not study.part("ring of cylindrical orthotropy, fibres around it",
+                      "u(a) error %"):
+        return
+    E1, E2, nu12, _ = PLY.values()
+    along, across = E1, E2
+    nu21 = nu12 * across / along
+    factor = 1. / (1. - nu12 * nu21)
+    k = math.sqrt(along / across)
+    radial = lambda power: factor * (across * power + nu21 * along)
+    # sigma_r(1) = -1, sigma_r(2) = 0
+    ratio = -radial(k) * 2**(k - 1) / (radial(-k) * 2**(-k - 1))
+    A = -1. / (radial(k) + ratio * radial(-k))
+    exact = A * (1. + ratio)
+    error = {}
+    for mode, limit in (("finite elements", 1.4), ("coupled", 3.5)):
+        for n in (8, 16):
+            folder = study.folder()
+            points, cells, surfaces = structured((n, 2 * n), lambda i, j: (
+                (1. + i / n) * math.cos(j * math.pi / 4 / n),
+                (1. + i / n) * math.sin(j * math.pi / 4 / n)))
+            write_msh(os.path.join(folder, "ring.msh"), 2, points, cells,
+                      surfaces)
+            solution = study.solve(write_parameters(
+                os.path.join(folder, "ring.prm"),
+                dict(law("90 + atan2(y, x)*180/pi"), **{
+                    "Mode": mode,
+                    "Mesh/file": "ring.msh",
+                    "Peridynamics/around": "x-",
+                    "Peridynamics/core size": "0.2",
+                    "Peridynamics/blending width": "0.3",
+                    "Boundary conditions/symmetry": "y-, y+",
+                    "Boundary conditions/pressure": "x-: 1",
+                    "Quantities/deflection": "inside: 1 0, x"
+                })))
+            error[mode, n] = abs(solution["inside_deflection"] / exact - 1.)
+            study.below("%s, %d cells across" % (mode, n),
+                        100. * error[mode, n], limit / (1 if n == 8 else 3.5))
+
+
+def main():
+    study = Study(__doc__)
+    off_axis_tension(study)
+    two_laws(study)
+    ring(study)
+    study.finish()
+
+
+if __name__ == "__main__":
+    main()
