@@ -186,9 +186,10 @@ namespace Perimorph::Application
         // The state behind an advance is also the one before the next.
         auto &last = last_tips;
         if (last.n_facets != cracks.facets().size() ||
-            last.alpha != region.alpha ||
+            last.time != state.time || last.alpha != region.alpha ||
             last.displacement != state.displacement)
           last = {cracks.facets().size(),
+                  state.time,
                   region.alpha,
                   state.displacement,
                   Fracture::tip_quantities(

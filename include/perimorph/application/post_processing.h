@@ -174,6 +174,7 @@ namespace Perimorph::Application
     struct Tips
     {
       std::size_t                          n_facets = 0;
+      double                               time     = 0.; ///< of the loads
       std::vector<double>                  alpha;
       std::vector<dealii::Tensor<1, dim>>  displacement;
       std::vector<Fracture::TipQuantities> quantities;
