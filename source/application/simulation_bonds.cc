@@ -3,6 +3,7 @@
 #include <perimorph/base/collective.h>
 #include <perimorph/base/log.h>
 #include <perimorph/coupling/bond_energies.h>
+#include <perimorph/coupling/bond_strengths.h>
 #include <perimorph/coupling/particle_states.h>
 
 #include <algorithm>
@@ -91,10 +92,12 @@ namespace Perimorph::Application
     const double ratio = parameters.region.horizon_ratio;
     if (parameters.growth.criterion == Damage::Criterion::critical_energy &&
         parameters.growth.limits.calibration == 0. &&
-        (parameters.state != Materials::PlaneState::plane_stress ||
+        (parameters.has_anisotropic_laws() ||
+         parameters.state != Materials::PlaneState::plane_stress ||
          parameters.coupling.gamma != 1. || ratio < 2. || ratio > 3.))
-      log.warning("the automatic 'Cracks / energy calibration' was measured in "
-                  "plane stress for horizon ratios of 2 to 3 and a "
+      log.warning("the automatic 'Cracks / energy calibration' was measured "
+                  "for isotropic laws in plane stress, for horizon ratios of 2 "
+                  "to 3 and a "
                   "stabilisation of 1; measure it with a known crack here");
   }
 
@@ -124,7 +127,7 @@ namespace Perimorph::Application
       if (alpha[bond.nodes[0]] < 1. || alpha[bond.nodes[1]] < 1.)
         in_core[bond.nodes[0]] = in_core[bond.nodes[1]] = false;
 
-    std::vector<Coupling::ParticleState> particles;
+    Coupling::ParticleStates particles;
     if (Damage::sees_particles(parameters.growth.criterion))
       particles =
         Coupling::particle_states(nodal,
@@ -162,12 +165,20 @@ namespace Perimorph::Application
             .youngs_modulus;
         });
         one.teeth_lost     = broken.teeth_lost(i, j);
-        if (!particles.empty())
-          see_particles(particles[i], particles[j], xi, eta, one);
+        if (!particles.nodes.empty())
+          see_particles(particles.nodes[i], particles.nodes[j], xi, eta, one);
+        const double factor =
+          is_protected[i] || is_protected[j] ? never
+          : Damage::uses_strengths(parameters.growth.criterion)
+            ? Coupling::load_factor_by_strength(bond.nodes,
+                                                particles,
+                                                materials,
+                                                parameters.growth.strengths,
+                                                *breaking_rule,
+                                                one)
+            : breaking_rule->load_factor(one);
         loads.push_back({bond.nodes,
-                         is_protected[i] || is_protected[j]
-                           ? never
-                           : breaking_rule->load_factor(one),
+                         factor,
                          bond.energy / (broken.n_teeth() - one.teeth_lost),
                          in_core[i] && in_core[j]});
       }

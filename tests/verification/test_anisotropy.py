@@ -4,14 +4,16 @@ fibres, two laws in one body, axes that vary in space, bending.
 References: compliance of an off-axis lamina (Jones, Mechanics of Composite
 Materials, Eq. (2.97)); a ring of cylindrical orthotropy under pressure
 (Lekhnitskii, u = A r^k + B r^-k with k^2 = E2 / E1); pure bending off the axes,
-whose strain is the compliance times a stress linear in y, exact.
+whose strain is the compliance times a stress linear in y, exact; strength by
+Tsai and Hill (Hattori et al. (2017), Eq. (26)) and by the largest stress.
 """
 
 import math
 import os
 
 from msh_writer import structured, write_msh
-from verification import MESHES, Study, write_parameters
+from verification import (MESHES, PARAMETER_FILES, Study, read_table,
+                          write_parameters)
 
 PLY = {"E1": 144.8, "E2": 11.7, "nu12": .21, "G12": 9.66}
 ANGLES = (0, 30, 45, 60, 90)
@@ -111,6 +113,29 @@ def two_laws(study):
                     solution["relative_displacement_error"], LIMIT)
 
 
+def bending(study):
+    """Cantilever 4 x 1 in pure bending, fibres at an angle to its length."""
+    if not study.part("bending off the axes, 8 cells deep",
+                      "tip deflection error %"):
+        return
+    # About 1.3 times what was measured; elements: 0.1 to 4.7.
+    for angle, limit in ((0, 4.), (30, .7), (45, .1), (60, .65), (90, .7)):
+        xx, yy, xy = compliance(angle)
+        field = "x = -y*(%.17g*x + (%.17g)*y), y = 0.5*(%.17g*x^2 - (%.17g)*y^2)" % (
+            xx, xy / 2, xx, yy)
+        solution = study.solve(write_parameters(
+            os.path.join(study.folder(), "bending.prm"),
+            dict(law(angle), **{
+                "Mode": "peridynamics",
+                "Mesh/file": os.path.join(MESHES, "beam_rectangle.geo"),
+                "Boundary conditions/displacement": "left: " + field,
+                "Boundary conditions/traction": "right: x = -y",
+                "Quantities/deflection": "tip: 4 0, y"
+            })))
+        error = solution["tip_deflection"] / (8. * xx) - 1.
+        study.below("%d degrees" % angle, 100. * abs(error), limit)
+
+
 def ring(study):
     """Fibres around the hole (axis 2 radial), pressure 1 inside; 1 < r < 2."""
     if not study.part("ring of cylindrical orthotropy, fibres around it",
@@ -152,11 +177,32 @@ def ring(study):
                         100. * error[mode, n], limit / (1 if n == 8 else 3.5))
 
 
+def strengths(study):
+    """Nominal stress at the first broken bond of off_axis_tension.prm, whose
+    field is uniform."""
+    if not study.part("strength off the axes", "load", "load"):
+        return
+    path = os.path.join(PARAMETER_FILES, "reference", "tsai_hill_HTA6376.csv")
+    table = {row[0]: row[1:] for row in zip(*read_table(path).values())}
+    for angle in (0, 25, 30, 45, 60, 90):
+        for criterion, expected in zip(("tsai-hill", "maximum stress"),
+                                       table[angle]):
+            solution = study.solve("off_axis_tension.prm", {
+                "Expressions/constants": "theta = %d" % angle,
+                "Cracks/criterion": criterion
+            })
+            load = solution.table("broken_bonds")["load_factor"][0]
+            study.within_percent("%d degrees, %s" % (angle, criterion), load,
+                                 expected, 1e-6)
+
+
 def main():
     study = Study(__doc__)
     off_axis_tension(study)
     two_laws(study)
+    bending(study)
     ring(study)
+    strengths(study)
     study.finish()
 
 
