@@ -50,7 +50,9 @@ namespace Perimorph::Application
       "correspondence model load and path depend more on the mesh. bond "
       "strain, equivalent strain, volumetric strain, maximum principal stress: "
       "by strain or stress of the particles at its ends; find where damage "
-      "starts, but cracks become wide bands. automatic: critical energy; "
+      "starts, but cracks become wide bands; so do tsai-hill and maximum "
+      "stress: by the stress along and across the fibres (axis 1) and "
+      "'strengths'. automatic: critical energy; "
       "model = bond based: critical stretch.",
       choice(automatic_or(Damage::criterion_names())));
     prm.add_parameter(
@@ -121,6 +123,25 @@ namespace Perimorph::Application
                       friction_angle,
                       "phi [degrees] of Mohr-Coulomb, with 'cohesion'.",
                       Double(0., 89.));
+    prm.add_parameter(
+      "strengths",
+      strengths,
+      "Of criterion = tsai-hill, maximum stress: X = 1670, Y = 60, S = 70 "
+      "[stress], tensile strengths along axis 1 of the material and across "
+      "it, and of shear along it. Compression does not count.",
+      Anything());
+    prm.add_parameter("strengths by volume",
+                      strengths_by_volume,
+                      "Other strengths in volumes of 'Material / by volume': "
+                      "inclusion: X = 2100, Y = 120, S = 135; ...",
+                      Anything());
+    prm.add_parameter(
+      "interface strengths",
+      interface_strengths,
+      "Of bonds with an end between two volumes of 'Material / by volume' (or "
+      "'rest', what is in none): rest, inclusion: X = 1670, Y = 48, S = 56; "
+      "... As strong as the material of the bond where nothing is given.",
+      Anything());
     prm.add_parameter(
       "hand over length",
       hand_over_length,

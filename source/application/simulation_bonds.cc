@@ -69,10 +69,12 @@ namespace Perimorph::Application
     const double ratio = parameters.region.horizon_ratio;
     if (parameters.growth.criterion == Damage::Criterion::critical_energy &&
         parameters.growth.limits.calibration == 0. &&
-        (parameters.state != Materials::PlaneState::plane_stress ||
+        (parameters.has_anisotropic_laws() ||
+         parameters.state != Materials::PlaneState::plane_stress ||
          parameters.coupling.gamma != 1. || ratio < 2. || ratio > 3.))
-      log.warning("the automatic 'Cracks / energy calibration' was measured in "
-                  "plane stress for horizon ratios of 2 to 3 and a "
+      log.warning("the automatic 'Cracks / energy calibration' was measured "
+                  "for isotropic laws in plane stress, for horizon ratios of 2 "
+                  "to 3 and a "
                   "stabilisation of 1; measure it with a known crack here");
   }
 
@@ -100,7 +102,7 @@ namespace Perimorph::Application
       pairs.push_back(bond.nodes);
     const auto in_core = Coupling::nodes_in_core(alpha, pairs);
 
-    std::vector<Coupling::ParticleState> particles;
+    Coupling::ParticleStates particles;
     if (Damage::sees_particles(parameters.growth.criterion))
       particles =
         Coupling::particle_states(nodal,
@@ -122,12 +124,21 @@ namespace Perimorph::Application
         one.energy = bond.energy / (0.5 * (std::max(alpha[i], 1e-3) +
                                            std::max(alpha[j], 1e-3)));
         one.teeth_lost     = broken.teeth_lost(i, j);
-        if (!particles.empty())
-          Coupling::see_particles<dim>(particles[i], particles[j], xi, eta, one);
+        if (!particles.nodes.empty())
+          Coupling::see_particles<dim>(
+            particles.nodes[i], particles.nodes[j], xi, eta, one);
+        const double factor =
+          is_protected[i] || is_protected[j] ? never
+          : Damage::uses_strengths(parameters.growth.criterion)
+            ? Coupling::load_factor_by_strength(bond.nodes,
+                                                particles,
+                                                materials,
+                                                parameters.growth.strengths,
+                                                *breaking_rule,
+                                                one)
+            : breaking_rule->load_factor(one);
         loads.push_back({bond.nodes,
-                         is_protected[i] || is_protected[j]
-                           ? never
-                           : breaking_rule->load_factor(one),
+                         factor,
                          bond.energy / (broken.n_teeth() - one.teeth_lost),
                          in_core[i] && in_core[j]});
       }

@@ -11,6 +11,9 @@ namespace Perimorph::Application
     const Coupling::MotionDamage damage{
       *breaking_rule,
       Damage::sees_particles(parameters.growth.criterion),
+      Damage::uses_strengths(parameters.growth.criterion) ?
+        &parameters.growth.strengths :
+        nullptr,
       is_protected,
       broken};
     if (parameters.coupling.model == Coupling::Model::bond_based)

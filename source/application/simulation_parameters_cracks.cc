@@ -66,6 +66,7 @@ namespace Perimorph::Application
       {
         check_bond_breaking(texts, errors);
         read_bond_limits(texts, errors);
+        read_strengths(texts, errors);
         read_protection(texts, errors);
       }
     if (dim == 3 && !growth.bonds)
@@ -125,6 +126,24 @@ namespace Perimorph::Application
                            "'" + texts.criterion + "' with model 'bond based'",
                            "critical stretch",
                            "Bonds of this model break by their stretch.");
+    const bool sees_strain =
+      growth.criterion == Damage::Criterion::bond_strain ||
+      growth.criterion == Damage::Criterion::equivalent_strain ||
+      growth.criterion == Damage::Criterion::volumetric_strain;
+    if (sees_strain && !knows_thickness_strain())
+      errors.add_parameter("Cracks / criterion",
+                           "'" + texts.criterion +
+                             "' in plane stress with a law that does not know "
+                             "the strain of the thickness",
+                           "orthotropic laws with nu13 and nu23",
+                           "Or a criterion of stress or energy.");
+    if (has_anisotropic_laws() && texts.critical_stretch == 0. &&
+        growth.criterion == Damage::Criterion::critical_stretch)
+      errors.add_parameter("Cracks / critical stretch",
+                           "nothing with a law that is not isotropic",
+                           "a number > 0, or another criterion",
+                           "The stretch that belongs to a fracture energy is "
+                           "known for isotropic laws only.");
     if (coupling.scheme == Coupling::Scheme::force_blending)
       errors.add_parameter("Cracks / growth",
                            "'bonds' with coupling 'force blending'",

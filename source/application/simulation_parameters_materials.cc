@@ -262,6 +262,11 @@ namespace Perimorph::Application
                                             Parameters::NameRule::required,
                                             errors))
       {
+        if (entry.name == rest_of_body)
+          errors.add_parameter(by_volume,
+                               "a volume named '" + rest_of_body + "'",
+                               "other names",
+                               "It is the name of what is in none of them.");
         MaterialConstants constants = material;
         constants.law               = law_of_volume<dim>(entry.name,
                                            entry.components,
@@ -334,17 +339,34 @@ namespace Perimorph::Application
 
   template <int dim>
   bool
+  SimulationParameters<dim>::knows_thickness_strain() const
+  {
+    const auto knows = [](const MaterialConstants &one) {
+      return !Materials::is_anisotropic(one.law) ||
+             one.constants.count("nu13") + one.constants.count("nu23") == 2;
+    };
+    return state != Materials::PlaneState::plane_stress ||
+           (knows(material) && std::all_of(volume_materials.begin(),
+                                           volume_materials.end(),
+                                           [&](const auto &entry) {
+                                             return knows(entry.second);
+                                           }));
+  }
+
+  template <int dim>
+  bool
   SimulationParameters<dim>::finite_strain() const
   {
     return material.law != "linear elastic" &&
            !Materials::is_anisotropic(material.law);
   }
 
-#define PERIMORPH_INSTANTIATE(dim)                                       \
-  template void SimulationParameters<dim>::read_materials(               \
-    const ParameterTexts &,                                              \
-    Base::InputErrorCollector &);                                        \
-  template bool SimulationParameters<dim>::has_anisotropic_laws() const; \
+#define PERIMORPH_INSTANTIATE(dim)                                         \
+  template void SimulationParameters<dim>::read_materials(                 \
+    const ParameterTexts &,                                                \
+    Base::InputErrorCollector &);                                          \
+  template bool SimulationParameters<dim>::has_anisotropic_laws() const;   \
+  template bool SimulationParameters<dim>::knows_thickness_strain() const; \
   template bool SimulationParameters<dim>::finite_strain() const;
 
   PERIMORPH_INSTANTIATE(2)

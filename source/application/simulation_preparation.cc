@@ -228,10 +228,30 @@ namespace Perimorph::Application
   void
   Simulation<dim>::assign_materials()
   {
-    materials = make_body_materials<dim>(*mesh,
+    materials          = make_body_materials<dim>(*mesh,
                                          parameters.material,
                                          parameters.volume_materials,
                                          parameters.state);
+    const auto &nodal  = mesh->nodal();
+    const auto  varies = [&](const unsigned int n) {
+      if (region.alpha[n] == 0.)
+        return false;
+      const auto  cells = nodal.node_cells.row(n);
+      const auto  first = nodal.cell_material[cells[0]];
+      const auto &of    = materials.material_of_law;
+      return std::any_of(cells.begin(), cells.end(), [&](const unsigned int c) {
+        const auto law = nodal.cell_material[c];
+        return law != first && of[law] == of[first];
+      });
+    };
+    for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
+      if (varies(n))
+        {
+          log.warning("the material axes vary in the peridynamic region: "
+                      "families end where the angle changes, so that forces "
+                      "there reach no further than those of elements");
+          break;
+        }
   }
 
   template <int dim>

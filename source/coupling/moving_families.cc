@@ -63,8 +63,8 @@ namespace Perimorph::Coupling
         const std::vector<dealii::Tensor<1, dim>> &displacement) override
       {
         const auto &nodal = mesh.nodal();
-        std::vector<ParticleState> states;
-        std::vector<bool>          may_fail;
+        ParticleStates    states;
+        std::vector<bool> may_fail;
         if (damage.sees_particles)
           {
             states = particle_states(nodal,
@@ -72,9 +72,9 @@ namespace Perimorph::Coupling
                                      materials.laws,
                                      displacement,
                                      mesh.communicator());
-            may_fail.resize(states.size());
-            for (unsigned int n = 0; n < states.size(); ++n)
-              may_fail[n] = states[n].exists && fails_alone(n, states[n]);
+            may_fail.resize(nodal.n_nodes());
+            for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
+              may_fail[n] = states.nodes[n].exists && fails_alone(n, states);
           }
         std::vector<std::array<unsigned int, 2>> found;
         for (std::size_t p = 0; p < current.n_particles(); ++p)
@@ -106,8 +106,12 @@ namespace Perimorph::Coupling
                                        eta);
                 bond.teeth_lost = damage.broken.teeth_lost(first, second);
                 if (damage.sees_particles)
-                  see_particles(states[first], states[second], xi, eta, bond);
-                if (damage.rule.load_factor(bond) <= 1.)
+                  see_particles(states.nodes[first],
+                                states.nodes[second],
+                                xi,
+                                eta,
+                                bond);
+                if (load_factor({{first, second}}, states, bond) <= 1.)
                   found.push_back({{first, second}});
               }
           }
@@ -139,7 +143,7 @@ namespace Perimorph::Coupling
     private:
       /// Whether a bond between two particles in this state would break.
       bool
-      fails_alone(const unsigned int node, const ParticleState &state) const
+      fails_alone(const unsigned int node, const ParticleStates &states) const
       {
         if (is_mixed[node])
           return true;
@@ -149,8 +153,23 @@ namespace Perimorph::Coupling
         bond.youngs_modulus                                     = 1.;
         dealii::Tensor<1, dim> along;
         along[0] = 1.;
-        see_particles(state, state, along, along, bond);
-        return damage.rule.load_factor(bond) <= 1.;
+        see_particles(
+          states.nodes[node], states.nodes[node], along, along, bond);
+        return load_factor({{node, node}}, states, bond) <= 1.;
+      }
+
+      double
+      load_factor(const std::array<unsigned int, 2> &nodes,
+                  const ParticleStates              &states,
+                  Damage::BondState                 &bond) const
+      {
+        return damage.strengths ? load_factor_by_strength(nodes,
+                                                          states,
+                                                          materials,
+                                                          *damage.strengths,
+                                                          damage.rule,
+                                                          bond) :
+                                  damage.rule.load_factor(bond);
       }
 
       void

@@ -1,5 +1,6 @@
 #include <perimorph/damage/breaking_rule.h>
 #include <perimorph/damage/particle_rules.h>
+#include <perimorph/damage/strength_rules.h>
 
 #include <cmath>
 #include <limits>
@@ -79,7 +80,9 @@ namespace Perimorph::Damage
                                                    "bond strain",
                                                    "equivalent strain",
                                                    "volumetric strain",
-                                                   "maximum principal stress"};
+                                                   "maximum principal stress",
+                                                   "tsai-hill",
+                                                   "maximum stress"};
     return names;
   }
 
@@ -88,6 +91,13 @@ namespace Perimorph::Damage
   {
     return criterion != Criterion::critical_stretch &&
            criterion != Criterion::critical_energy;
+  }
+
+  bool
+  uses_strengths(const Criterion criterion)
+  {
+    return criterion == Criterion::tsai_hill ||
+           criterion == Criterion::maximum_stress;
   }
 
   template <int dim>
@@ -103,6 +113,8 @@ namespace Perimorph::Damage
       return std::make_unique<CriticalEnergy<dim>>(limits.fracture_energy,
                                                    limits.calibration,
                                                    shape);
+    if (uses_strengths(criterion))
+      return make_strength_rule(criterion);
     return make_particle_rule(criterion, limits);
   }
 

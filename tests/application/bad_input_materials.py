@@ -87,3 +87,69 @@ MATERIALS = [
                                         "a number >= 0"],
         {"Material/by volume": "domain: density = -1"}),
 ]
+
+STRENGTHS = dict(ORTHOTROPIC, **{
+    "Cracks/growth": "bonds",
+    "Cracks/criterion": "tsai-hill",
+    "Cracks/strengths": "X = 10, Y = 3, S = 2",
+    "Material/by volume": "domain: density = 2",
+})
+
+MATERIALS += [
+    row("no strengths", ["'Cracks / strengths'", "no X (or 0)", "no Y", "no S",
+                         "The criterion is 'tsai-hill'"], STRENGTHS,
+        {"Cracks/strengths": None}, n_errors=3),
+    row("one strength missing", ["'Cracks / strengths'", "no S",
+                                 "a number > 0",
+                                 "The criterion is 'maximum stress'"],
+        STRENGTHS, {"Cracks/strengths": "X = 10, Y = 3",
+                    "Cracks/criterion": "maximum stress"}),
+    row("negative strength", ["'Cracks / strengths'", "Y = -3",
+                              "a number > 0"], STRENGTHS,
+        {"Cracks/strengths": "X = 10, Y = -3, S = 2"}),
+    row("unknown strength", ["'Cracks / strengths'", "component 'Z'",
+                             "X, Y, S"], STRENGTHS,
+        {"Cracks/strengths": "X = 10, Z = 3, S = 2"}),
+    row("stronger across the fibres than Hill allows", [
+        "'Cracks / strengths'", "Y = 20 with X = 10", "Y less than 2 X"],
+        STRENGTHS, {"Cracks/strengths": "X = 10, Y = 20, S = 2"}),
+    row("strengths of a criterion without them", [
+        "'Cracks / strengths'", "with criterion 'critical energy'",
+        "tsai-hill, maximum stress"], STRENGTHS,
+        {"Cracks/criterion": "critical energy", "Cracks/fracture energy": "1"}),
+    row("strengths of an unknown volume", [
+        "'Cracks / strengths by volume'", "'domian'", "did you mean 'domain'",
+        "'Material / by volume'"], STRENGTHS,
+        {"Cracks/strengths by volume": "domian: X = 10"}),
+    row("negative strength of a volume", [
+        "'Cracks / strengths by volume'", "X = -10 of domain"], STRENGTHS,
+        {"Cracks/strengths by volume": "domain: X = -10"}),
+    row("interface of one volume", [
+        "'Cracks / interface strengths'", "'domain'", "two volumes"],
+        STRENGTHS,
+        {"Cracks/interface strengths": "domain: X = 10, Y = 3, S = 2"}),
+    row("interface with an unknown volume", [
+        "'Cracks / interface strengths'", "'resin'", "rest, domain"],
+        STRENGTHS,
+        {"Cracks/interface strengths": "resin, domain: X = 10, Y = 3, S = 2"}),
+    row("interface with a strength missing", [
+        "'Cracks / interface strengths'", "no S (or 0) of rest, domain"],
+        STRENGTHS,
+        {"Cracks/interface strengths": "rest, domain: X = 10, Y = 3"}),
+    row("interface given twice", [
+        "'Cracks / interface strengths'", "'rest, domain' again",
+        "in either order"], STRENGTHS, {"Cracks/interface strengths":
+        "domain, rest: X = 10, Y = 3, S = 2; rest, domain: X = 9, Y = 3, S = 2"}),
+    row("volume with the name of the rest", [
+        "'Material / by volume'", "a volume named 'rest'"],
+        {"Material/by volume": "rest: density = 2"}),
+    row("fracture energy of bonds of an orthotropic law", [
+        "'Cracks / critical stretch'", "a law that is not isotropic"],
+        STRENGTHS, {"Cracks/criterion": "critical stretch",
+                    "Cracks/fracture energy": "1", "Cracks/strengths": None}),
+    row("strain criterion without strain of the thickness", [
+        "'Cracks / criterion'", "'equivalent strain' in plane stress",
+        "nu13 and nu23"], STRENGTHS,
+        {"Cracks/criterion": "equivalent strain", "Cracks/strengths": None,
+         "Cracks/critical equivalent strain": "0.1"}),
+]

@@ -2,6 +2,7 @@
 
 #include <perimorph/application/body_materials.h>
 #include <perimorph/base/exceptions.h>
+#include <perimorph/coupling/bond_strengths.h>
 #include <perimorph/coupling/coupled_problem.h>
 #include <perimorph/damage/breaking_rule.h>
 #include <perimorph/fem/boundary_conditions.h>
@@ -66,6 +67,7 @@ namespace Perimorph::Application
            critical_volumetric_strain = 0., tensile_strength = 0.,
            cohesion = 0., friction_angle = 0.;
     unsigned int maximum_advances = 1000, softening_teeth = 6;
+    std::string  strengths, strengths_by_volume, interface_strengths;
     std::string  protected_boundaries, protected_materials, protected_regions;
 
     std::string symmetry, displacement, mean_displacement, rigid_plate,
@@ -110,15 +112,17 @@ namespace Perimorph::Application
   /// Growth of cracks by segments, or bond by bond.
   struct GrowthParameters
   {
-    bool               active = false;
-    bool               bonds  = false; ///< else by segments
-    bool               events = false; ///< else by load steps
-    Damage::Criterion  criterion;
-    Damage::Limits     limits;      ///< of bonds
-    unsigned int       n_teeth = 1; ///< of each bond
-    double             fracture_energy;
-    Parameters::Length advance;
-    unsigned int       maximum_advances;
+    bool              active = false;
+    bool              bonds  = false; ///< else by segments
+    bool              events = false; ///< else by load steps
+    Damage::Criterion criterion;
+    Damage::Limits    limits; ///< of bonds
+    /// Of criteria with Damage::uses_strengths().
+    Coupling::StrengthTable strengths;
+    unsigned int            n_teeth = 1; ///< of each bond
+    double                  fracture_energy;
+    Parameters::Length      advance;
+    unsigned int            maximum_advances;
     /// Length from which on a crack of broken bonds grows by segments.
     std::optional<Parameters::Length> hand_over;
     /// Bonds with an end there never break.
@@ -243,6 +247,9 @@ namespace Perimorph::Application
                    const std::string         &of,
                    const MaterialConstants   &constants,
                    Base::InputErrorCollector &errors) const;
+    /// True unless a law in plane stress lacks constants for it.
+    bool
+    knows_thickness_strain() const;
     void
     check_orientation(Base::InputErrorCollector &errors) const;
     /// An expression of constants only.
@@ -283,6 +290,9 @@ namespace Perimorph::Application
     void
     read_bond_limits(const ParameterTexts      &texts,
                      Base::InputErrorCollector &errors);
+    void
+    read_strengths(const ParameterTexts      &texts,
+                   Base::InputErrorCollector &errors);
     void
     read_hand_over(const ParameterTexts      &texts,
                    Base::InputErrorCollector &errors);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <perimorph/coupling/bond_set.h>
-#include <perimorph/coupling/particle_states.h>
+#include <perimorph/coupling/bond_strengths.h>
 #include <perimorph/damage/breaking_rule.h>
 #include <perimorph/mesh/region_map.h>
 

@@ -40,6 +40,7 @@ namespace Perimorph::Coupling
   {
     const Damage::BreakingRule &rule;
     bool                        sees_particles;
+    const StrengthTable        *strengths; ///< null: the rule has none
     const std::vector<bool>    &is_protected; ///< nodes
     const Bonds::BrokenBonds   &broken;
   };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <perimorph/base/csr.h>
 #include <perimorph/fem/elastic_cells.h>
 #include <perimorph/peridynamics/family_set.h>
 
@@ -19,12 +20,24 @@ namespace Perimorph::Coupling
     dealii::Tensor<2, 3>          rotation; ///< (H - H^T) / 2
   };
 
-  /// States of all nodes, the same on all ranks. A node between materials has
-  /// the mean of its particles.
+  struct ParticleStates
+  {
+    /// Laws of the cells at each node, in rising order: a particle each.
+    Base::Csr<unsigned int>    laws;
+    std::vector<ParticleState> particles; ///< in this order
+    /// A node between laws has the mean of its particles.
+    std::vector<ParticleState> nodes;
+
+    /// Null if no cell at the node has this law.
+    const ParticleState *
+    find(unsigned int node, unsigned int law) const;
+  };
+
+  /// States of all particles, the same on all ranks.
   /// @param families      of this rank, with global nodes
   /// @param displacement  of all nodes
   template <int dim>
-  std::vector<ParticleState>
+  ParticleStates
   particle_states(const Mesh::NodalMesh<dim>                          &mesh,
                   const Peridynamics::FamilySet<dim>                  &families,
                   const typename Fem::ElasticCells<dim>::MaterialList &laws,

@@ -10,6 +10,14 @@
 
 namespace Perimorph::Damage
 {
+  /// Tensile strengths in material axes [stress], axis 1 along the fibres.
+  struct Strengths
+  {
+    double longitudinal = 0.; ///< X
+    double transverse   = 0.; ///< Y, all directions across the fibres
+    double shear        = 0.; ///< S, along the fibres
+  };
+
   /// One bond under load, as criteria see it.
   struct BondState
   {
@@ -30,6 +38,10 @@ namespace Perimorph::Damage
     dealii::Tensor<1, 3>          direction; ///< e
     dealii::Tensor<1, 3> relative; ///< eta / |xi| without the mean rotation
     double               largest_dilatation; ///< tr(strain) of either end
+
+    // Only where uses_strengths(), which see the stress of one material.
+    dealii::Tensor<2, 3> axes; ///< material axes in rows
+    Strengths            strengths;
   };
 
   /// When a bond breaks: one rule, one bond, no memory.
@@ -51,7 +63,9 @@ namespace Perimorph::Damage
     bond_strain,       ///< deviatoric_bond_strain() under tension
     equivalent_strain, ///< of the mean strain
     volumetric_strain, ///< of the mean strain
-    principal_stress   ///< of the mean stress, with Mohr-Coulomb
+    principal_stress,  ///< of the mean stress, with Mohr-Coulomb
+    tsai_hill,         ///< of the stress in material axes
+    maximum_stress     ///< the same, each component by itself
   };
 
   /// Names as in the parameter file, in the order of the enumeration.
@@ -61,6 +75,10 @@ namespace Perimorph::Damage
   /// Whether bonds break by strain or stress of the particles at their ends.
   bool
   sees_particles(Criterion criterion);
+
+  /// Whether bonds break by strengths in material axes.
+  bool
+  uses_strengths(Criterion criterion);
 
   /// What bonds bear. Zeros where a criterion does not ask.
   struct Limits
