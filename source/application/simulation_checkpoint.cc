@@ -159,6 +159,7 @@ namespace Perimorph::Application
     action("point supports checked", point_supports_checked);
     action("stable time step", stable_time_step);
     action("announced limit", announced_limit);
+    action("limit at start", limit_at_start);
     action("limit is old", limit_is_old);
     action("steps of limit", steps_of_limit);
     action("energy at start", energy_at_start);

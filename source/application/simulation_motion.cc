@@ -258,6 +258,8 @@ namespace Perimorph::Application
         stable_time_step = 0.;
       }
     double longest = longest_time_step(*integrator, method);
+    if (is_fresh)
+      limit_at_start = stable_time_step;
     integrator->start(motion, is_fresh);
     if (is_fresh)
       on_instant(make_instant({0}, *integrator, method));
@@ -292,12 +294,11 @@ namespace Perimorph::Application
                   1000. * motion.time / parameters.end_time));
                 if (breaks)
                   {
-                    const auto change = break_in_motion(method, *bonds);
+                    const auto change = break_in_motion(method, bonds);
                     if (change == MotionChange::region)
                       {
                         integrator = make_integrator(method);
                         integrator->start(motion, false);
-                        bonds = make_moving_bonds(method);
                       }
                     else if (change == MotionChange::bonds)
                       integrator->forget_tangent();

@@ -2,8 +2,18 @@
 #include <perimorph/base/log.h>
 #include <perimorph/fem/nodal_values.h>
 
+#include <cmath>
+#include <limits>
+
 namespace Perimorph::Application
 {
+  namespace
+  {
+    /// Of the largest eigenvalue of the body at the start, which sums those of
+    /// many families and elements.
+    constexpr double share_of_family = 0.5;
+  } // namespace
+
   template <int dim>
   std::unique_ptr<Coupling::MovingBonds<dim>>
   Simulation<dim>::make_moving_bonds(Method &method) const
@@ -15,7 +25,11 @@ namespace Perimorph::Application
         &parameters.growth.strengths :
         nullptr,
       is_protected,
-      broken};
+      broken,
+      node_mass,
+      parameters.time_integration.scheme == TimeScheme::explicit_motion ?
+        share_of_family * std::pow(2. / limit_at_start, 2) :
+        std::numeric_limits<double>::infinity()};
     if (parameters.coupling.model == Coupling::Model::bond_based)
       return Coupling::make_moving_pairs<dim>(
         *mesh, method.region, materials, damage, *method.problem);
@@ -33,15 +47,16 @@ namespace Perimorph::Application
 
   template <int dim>
   typename Simulation<dim>::MotionChange
-  Simulation<dim>::break_in_motion(Method                     &method,
-                                   Coupling::MovingBonds<dim> &bonds)
+  Simulation<dim>::break_in_motion(
+    Method                                      &method,
+    std::unique_ptr<Coupling::MovingBonds<dim>> &bonds)
   {
     const auto timer = timing.scope("damage");
     auto      &u     = method.motion.displacement;
     u.update_ghost_values();
     const auto displacement =
       Fem::to_nodal_values(u, method.problem->partition());
-    const auto found = bonds.overloaded(displacement);
+    const auto found = bonds->overloaded(displacement);
     if (found.nodes.empty())
       {
         u.zero_out_ghost_values();
@@ -50,7 +65,15 @@ namespace Perimorph::Application
     if (!found.outside_core.empty())
       {
         u.zero_out_ghost_values();
+        Fem::Vector start(u);
+        start.update_ghost_values();
+        const double before = method.problem->strain_energy(start);
         grow_core_in_motion(method, found.outside_core);
+        // Takes the weight of families that are too stiff.
+        bonds               = make_moving_bonds(method);
+        Fem::Vector same(method.motion.displacement);
+        same.update_ghost_values();
+        switched_energy += method.problem->strain_energy(same) - before;
         // The next step breaks what is still overloaded.
         return MotionChange::region;
       }
@@ -77,7 +100,7 @@ namespace Perimorph::Application
         row.push_back(broken.share_left(bond[0], bond[1]));
         broken_table->write_row(row);
       }
-    bonds.take_away(found.nodes);
+    bonds->take_away(found.nodes);
     dissipated_energy += before - method.problem->strain_energy(u);
     u.zero_out_ghost_values();
     return MotionChange::bonds;
@@ -114,15 +137,9 @@ namespace Perimorph::Application
         "grow there: use a larger 'Peridynamics / core size'");
     next.set_alpha(alpha);
 
-    auto      &motion    = method.motion;
-    const auto energy_of = [](const Method &some, const Fem::Vector &vector) {
-      Fem::Vector complete(vector);
-      complete.update_ghost_values();
-      return some.problem->strain_energy(complete);
-    };
-    const double before    = energy_of(method, motion.displacement);
-    const auto  &partition = method.problem->partition();
-    const auto   displacement =
+    auto       &motion    = method.motion;
+    const auto &partition = method.problem->partition();
+    const auto  displacement =
       Fem::to_nodal_values(motion.displacement, partition);
     const auto velocity = Fem::to_nodal_values(motion.velocity, partition);
     const auto acceleration =
@@ -140,7 +157,6 @@ namespace Perimorph::Application
         Fem::set_nodal_values(*values, grown.problem->partition(), *vector);
       }
     method = std::move(grown);
-    switched_energy += energy_of(method, motion.displacement) - before;
     log << "  t = " << motion.time << ": the peridynamic core grows to "
         << method.region.n_core << " nodes" << std::endl;
   }
@@ -149,8 +165,8 @@ namespace Perimorph::Application
   template std::unique_ptr<Coupling::MovingBonds<dim>>                 \
   Simulation<dim>::make_moving_bonds(Method &) const;                  \
   template Simulation<dim>::MotionChange                               \
-  Simulation<dim>::break_in_motion(Method &,                           \
-                                   Coupling::MovingBonds<dim> &);      \
+  Simulation<dim>::break_in_motion(                                    \
+    Method &, std::unique_ptr<Coupling::MovingBonds<dim>> &);          \
   template void Simulation<dim>::grow_core_in_motion(                  \
     Method &, const std::vector<std::array<unsigned int, 2>> &);
   PERIMORPH_INSTANTIATE(2)

@@ -56,6 +56,10 @@ namespace Perimorph::Coupling
           rows[current.node[p]].push_back(p);
         for (std::size_t p = 0; p < intact.n_particles(); ++p)
           intact_rows[intact.node[p]].push_back(p);
+        std::vector<std::array<unsigned int, 2>> known;
+        for (const auto &bond : damage.broken.list())
+          known.push_back(bond.nodes);
+        take_away(known);
       }
 
       OverloadedBonds
@@ -172,6 +176,29 @@ namespace Perimorph::Coupling
                                   damage.rule.load_factor(bond);
       }
 
+      /// Of the largest eigenvalue of a family alone: that of C times that of
+      /// the gradient, and of the stabilisation by |a - b|^2 <= 2 a^2 + 2 b^2.
+      double
+      eigenvalue_bound(const Peridynamics::FamilySet<dim> &family) const
+      {
+        const unsigned int node = family.node[0];
+        const auto         A    = materials.laws[family.material[0]]->tangent(
+          dealii::Tensor<2, dim>());
+        double                 gradient = 0., stretch = 0.;
+        dealii::Tensor<1, dim> sum;
+        for (std::size_t b = 0; b < family.n_bonds(); ++b)
+          {
+            const double mass = damage.mass[family.neighbor[b]];
+            gradient += family.gradient_weight[b].norm_square() / mass;
+            sum += family.gradient_weight[b];
+            stretch +=
+              family.bond_weight[b] * (1. / mass + 1. / damage.mass[node]);
+          }
+        gradient += sum.norm_square() / damage.mass[node];
+        return family.weight[0] *
+               (A.norm() * gradient + 2. * family.stabilization[0] * stretch);
+      }
+
       void
       replace(const std::size_t p, const std::size_t of_intact)
       {
@@ -182,7 +209,9 @@ namespace Perimorph::Coupling
                                           damage.broken,
                                           intact,
                                           of_intact,
-                                          remains);
+                                          remains) &&
+                             eigenvalue_bound(remains) <=
+                               damage.largest_eigenvalue;
         term.replace_family(p, remains, !is_left, partition);
         const std::size_t first = current.offsets[p];
         const std::size_t n     = is_left ? remains.n_bonds() : 0;

@@ -254,7 +254,8 @@ namespace Perimorph::Application
     /// Breaks the bonds that the state of a motion overloads; the core grows
     /// where they are not in it.
     MotionChange
-    break_in_motion(Method &method, Coupling::MovingBonds<dim> &bonds);
+    break_in_motion(Method                                      &method,
+                    std::unique_ptr<Coupling::MovingBonds<dim>> &bonds);
     /// The same state with room for more bonds in the core.
     /// @throws Base::SolveError  it cannot grow there
     void
@@ -526,7 +527,7 @@ namespace Perimorph::Application
     // Motion.
     std::vector<double> node_mass;
     double              stable_time_step = 0.; ///< 0: not known
-    double              announced_limit  = 0.;
+    double              announced_limit = 0., limit_at_start = 0.;
     /// Whether bonds broke since the limit was found, and how long ago.
     bool         limit_is_old   = false;
     unsigned int steps_of_limit = 0;

@@ -43,6 +43,11 @@ namespace Perimorph::Coupling
     const StrengthTable        *strengths; ///< null: the rule has none
     const std::vector<bool>    &is_protected; ///< nodes
     const Bonds::BrokenBonds   &broken;
+    const std::vector<double>  &mass; ///< of nodes
+    /// Families that would vibrate faster than this lose their weight, as those
+    /// do whose bonds do not span space: few bonds make stiff levers that
+    /// explicit steps cannot follow. Squared frequency; infinity: any.
+    double largest_eigenvalue;
   };
 
   /// Of the correspondence model. Stretches are checked bond by bond; stresses
