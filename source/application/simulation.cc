@@ -151,7 +151,8 @@ namespace Perimorph::Application
   Simulation<dim>::nodes_cut_off(const Bonds::CrackSet<dim> &cracks) const
   {
     // Loads move them without end: no springs must hide that.
-    if (cracks.empty() || !parameters.growth.active || !loads->empty())
+    if (cracks.empty() || !parameters.growth.active || !loads->empty() ||
+        parameters.time_integration.has_inertia())
       return {};
     const auto        parts   = parts_of_body(mesh->nodal(), cracks);
     const auto       &pieces  = mesh->pieces();

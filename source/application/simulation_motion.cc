@@ -183,26 +183,39 @@ namespace Perimorph::Application
       }
     if (is_explicit && time.time_step > stable_time_step)
       {
-        std::ostringstream found, allowed;
-        found << time.time_step;
-        allowed << "at most " << stable_time_step
-                << ", the stability limit of this mesh";
-        if (n_time_steps > 0)
-          throw Base::SolveError("bonds that broke have lowered the limit of "
-                                 "stable time steps to " +
-                                 allowed.str().substr(8) +
-                                 ": 'Time integration / time step' is " +
-                                 found.str());
-        throw Base::InputError(
-          Base::InputMessage{"parameter 'Time integration / time step'",
-                             found.str(),
-                             allowed.str(),
-                             "0 chooses it; the safety factor is 'Time "
-                             "integration / safety factor'."});
+        std::ostringstream text;
+        text << "bonds that broke have lowered the limit of stable time steps "
+                "to "
+             << stable_time_step << ": 'Time integration / time step' is "
+             << time.time_step;
+        throw Base::SolveError(text.str());
       }
     return time.time_step > 0. ? time.time_step :
                                  time.safety_factor * stable_time_step *
                                    (is_explicit ? 1. : implicit_over_explicit);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::check_time_step()
+  {
+    const auto &time = parameters.time_integration;
+    if (time.scheme != TimeScheme::explicit_motion || time.time_step == 0.)
+      return;
+    Method method    = set_up(parameters.region.mode);
+    node_mass        = Fem::lumped_mass(mesh->nodal(), materials.density);
+    const auto limit =
+      make_integrator(method)->stable_time_step(initial_motion(method));
+    if (time.time_step <= limit)
+      return;
+    std::ostringstream found, allowed;
+    found << time.time_step;
+    allowed << "at most " << limit << ", the stability limit of this mesh";
+    throw Base::InputError(
+      Base::InputMessage{"parameter 'Time integration / time step'",
+                         found.str(),
+                         allowed.str(),
+                         "0 chooses it."});
   }
 
   template <int dim>
@@ -439,6 +452,7 @@ namespace Perimorph::Application
   Simulation<dim>::make_integrator(Method &);                                \
   template double Simulation<dim>::longest_time_step(                        \
     const MotionIntegrator<dim> &, const Method &);                          \
+  template void Simulation<dim>::check_time_step();                          \
   template Simulation<dim>::Instant Simulation<dim>::make_instant(           \
     Instant, const MotionIntegrator<dim> &, Method &);                       \
   template void Simulation<dim>::follow_motion(Method &, const OnInstant &); \

@@ -2,6 +2,7 @@
 #include <perimorph/base/log.h>
 #include <perimorph/fem/nodal_values.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -56,7 +57,7 @@ namespace Perimorph::Application
     u.update_ghost_values();
     const auto displacement =
       Fem::to_nodal_values(u, method.problem->partition());
-    const auto found = bonds->overloaded(displacement);
+    auto found = bonds->overloaded(displacement);
     if (found.nodes.empty())
       {
         u.zero_out_ghost_values();
@@ -86,6 +87,21 @@ namespace Perimorph::Application
         columns.push_back("share_left");
         broken_table = &open_table("broken_bonds.csv", columns);
       }
+    // By place: the numbers of nodes depend on the number of ranks.
+    const auto &places = mesh->nodal().nodes;
+    const auto  less   = [&](const unsigned int a, const unsigned int b) {
+      for (int d = 0; d < dim; ++d)
+        if (places[a][d] != places[b][d])
+          return places[a][d] < places[b][d];
+      return a < b;
+    };
+    for (auto &bond : found.nodes)
+      std::sort(bond.begin(), bond.end(), less);
+    std::sort(found.nodes.begin(),
+              found.nodes.end(),
+              [&](const auto &a, const auto &b) {
+                return a[0] == b[0] ? less(a[1], b[1]) : less(a[0], b[0]);
+              });
     ++n_events;
     const double before = method.problem->strain_energy(u);
     for (const auto &bond : found.nodes)

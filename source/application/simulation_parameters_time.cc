@@ -53,6 +53,7 @@ namespace Perimorph::Application
     time.initial_displacement =
       field("initial displacement", texts.initial_displacement);
     time.initial_velocity = field("initial velocity", texts.initial_velocity);
+    coupling.holds_loose_parts = !time.has_inertia();
     if (time.scheme == TimeScheme::equilibrium)
       return;
 
@@ -96,7 +97,7 @@ namespace Perimorph::Application
                            "may gain it.");
     const auto check_density = [&](const std::string       &entry,
                                    const MaterialConstants &constants) {
-      if (!(constants.density > 0.))
+      if (constants.density == 0.)
         errors.add_parameter(entry,
                              "nothing or 0",
                              "a number > 0",

@@ -58,6 +58,7 @@ namespace Perimorph::Application
                                              ratios,
                                              parameters.finite_strain()))
       log.warning(text);
+    check_time_step();
     for (const unsigned int node : loads->loaded_points())
       {
         std::ostringstream text;

@@ -82,9 +82,8 @@ namespace Perimorph::Coupling
     const std::size_t from  = is_isolated ? 0 : remains.offsets[last];
     const std::size_t n     = is_isolated ? 0 : remains.offsets[last + 1] - from;
     const std::size_t first = families.offsets[particle];
-    if (is_isolated)
-      families.weight[particle] = 0.;
-    else
+    families.weight[particle] = is_isolated ? 0. : remains.weight[last];
+    if (!is_isolated)
       families.stabilization[particle] = remains.stabilization[last];
     // Bonds to itself without weights fill the places of the broken ones.
     for (std::size_t b = first; b < families.offsets[particle + 1]; ++b)

@@ -262,7 +262,7 @@ namespace Perimorph::Coupling
               complement(region.alpha),
               {},
               std::move(term));
-    if (!broken.empty())
+    if (!broken.empty() && parameters.holds_loose_parts)
       ground_loose_parts(parts);
   }
 
@@ -387,7 +387,7 @@ namespace Perimorph::Coupling
         std::make_unique<CellPartTerm<dim>>(partition(),
                                             std::move(coupling.parts),
                                             std::move(coupling.part_tensors)));
-    if (broken.empty())
+    if (broken.empty() || !parameters.holds_loose_parts)
       return;
     std::vector<bool> lost(nodal.n_nodes(), false);
     for (const auto &bond : broken.list())

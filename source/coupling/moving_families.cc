@@ -215,8 +215,7 @@ namespace Perimorph::Coupling
         term.replace_family(p, remains, !is_left, partition);
         const std::size_t first = current.offsets[p];
         const std::size_t n     = is_left ? remains.n_bonds() : 0;
-        if (!is_left)
-          current.weight[p] = 0.;
+        current.weight[p]       = is_left ? remains.weight[0] : 0.;
         for (std::size_t b = first; b < current.offsets[p + 1]; ++b)
           {
             const bool here     = b - first < n;

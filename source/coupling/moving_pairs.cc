@@ -82,7 +82,9 @@ namespace Perimorph::Coupling
         bool              some_cell_goes = false;
         for (const auto &bond : nodes)
           {
-            if (const auto found = place.find(bond); found != place.end())
+            const auto found = place.find(
+              {{std::min(bond[0], bond[1]), std::max(bond[0], bond[1])}});
+            if (found != place.end())
               {
                 const std::size_t b = found->second;
                 const double left = damage.broken.share_left(bond[0], bond[1]);

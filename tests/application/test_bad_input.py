@@ -8,6 +8,7 @@ import sys
 import bad_input_body
 import bad_input_files
 import bad_input_materials
+import bad_input_motion
 from case_files import BOND_BASED, SOLID, parameter_text
 from harness import Failures, Runner, finish, parse_arguments
 
@@ -21,6 +22,7 @@ TABLES = {
     "quantities": bad_input_body.QUANTITIES,
     "breaking": bad_input_body.BREAKING,
     "materials": bad_input_materials.MATERIALS,
+    "motion": bad_input_motion.MOTION,
 }
 # Rows that are also run on 3 ranks: one for each place in the program that
 # finds errors.
@@ -30,7 +32,8 @@ ON_RANKS = [
     "too few neighbours", "contradicting supports",
     "not a number in a body force", "reference data that is no number",
     "pushed unsupported body", "point outside",
-    "unwritable output folder", "many errors in mesh names"
+    "unwritable output folder", "many errors in mesh names",
+    "time step above the limit", "motion of a rigid plate"
 ]
 # Those found on the rank that owns something, or by one rank for all: another
 # number of ranks is another place.

@@ -25,6 +25,10 @@ TWO_ADVANCES = "Cracks/maximum advances=2"
 ADVANCES = "Cracks/maximum advances=4"
 LOAD_STEPS = ["Cracks/growth control=load steps", "Load steps/end time=1.3"]
 BONDS = ["Cracks/growth=bonds"]
+# Neither at the end of a period nor on the axis, where all is round-off.
+BAR = ["Load steps/end time=60e-6", "Quantities/point=middle: 0.1 0.001"]
+COMPOSITE = "Mesh/geometry parameters=L = 0.1, d = 0.1, nx = 40, ny = 40"
+GLASS = "Mesh/geometry parameters=L = 0.1, d = 0.04, h = 0.002"
 HAND_OVER = ["Cracks/hand over length=1 horizons",
              "Cracks/advance length=0.25 horizons"]
 WITH_REACTIONS = "Quantities/reaction=left, bottom"
@@ -98,6 +102,21 @@ CASES = [
      False),
     ("growth bond by bond in load steps", "edge_crack_growth.prm",
      [STRIP, ADVANCES] + BONDS + LOAD_STEPS, False),
+    ("explicit motion", "bar_wave.prm", BAR, False),
+    ("implicit motion", "bar_wave.prm",
+     BAR + ["Time integration/scheme=implicit", "Time integration/time step=1e-6"],
+     False),
+    ("motion, bond based", "bar_wave.prm",
+     BAR + ["Peridynamics/model=bond based", "Material/Poisson's ratio=0.3333333333"],
+     False),
+    ("motion with material axes", "dynamic_edge_crack.prm", [COMPOSITE], False),
+    ("families that break in motion", "dynamic_edge_crack.prm",
+     [COMPOSITE, "Cracks/growth=bonds", "Cracks/criterion=tsai-hill",
+      "Cracks/strengths=X = 1670e6, Y = 60e6, S = 70e6"], False),
+    ("bonds that break in motion", "dynamic_branching.prm", [GLASS], False),
+    ("relaxation", "plate_with_hole.prm",
+     [PLATE, "Time integration/scheme=relaxation",
+      "Solver/Newton tolerance=1e-11"], False),
 ]
 
 
@@ -222,9 +241,10 @@ def check_ghost(failures, ranks, one, many, expected):
     else:
         failures.check_below("ghost_force", ghost, 1e-10)
         failures.check_below("ghost_force on %d ranks" % ranks, other, 1e-10)
-    failures.check_below("imbalance on %d ranks" % ranks,
-                         many["checks"]["imbalance"],
-                         1e-3 if expected else 1e-9)
+    if one["checks"]["imbalance"] is not None: # not of a body that moves
+        failures.check_below("imbalance on %d ranks" % ranks,
+                             many["checks"]["imbalance"],
+                             1e-3 if expected else 1e-9)
 
 
 def main():

@@ -42,7 +42,21 @@ STRIP = {
     "Output/stress": "false",
 }
 
-# name, entries, rows of load_steps.csv at which it may be killed
+# The same strip, torn apart by a velocity.
+PULLED = dict(STRIP, **{
+    "Material/density": "1",
+    "Cracks/growth": "bonds",
+    "Cracks/criterion": "critical stretch",
+    "Cracks/maximum advances": None,
+    "Boundary conditions/displacement": None,
+    "Boundary conditions/point displacement": None,
+    "Time integration/initial velocity": "y = 5*y",
+    "Time integration/field interval": "0.08",
+    "Load steps/end time": "1.6",
+    "Load steps/number of steps": "20",
+})
+
+# name, entries, rows of the table of steps at which it may be killed
 CASES = [
     # The plate turns, Newton's few iterations make cuts: both have a memory.
     ("load steps at finite strain", dict(HENCKY, **{
@@ -110,6 +124,17 @@ CASES = [
         "Load steps/end time": "1.6",
         "Load steps/number of steps": "4",
     }), (1, 6)),
+    ("explicit motion with families that break", dict(PULLED, **{
+        "Time integration/scheme": "explicit",
+    }), (2, 10)),
+    ("explicit motion with bonds that break", dict(PULLED, **{
+        "Time integration/scheme": "explicit",
+        "Peridynamics/model": "bond based",
+    }), (2, 10)),
+    ("implicit motion with families that break", dict(PULLED, **{
+        "Time integration/scheme": "implicit",
+        "Time integration/time step": "0.05",
+    }), (2, 10)),
 ]
 
 # Columns that hold only round-off.
@@ -120,6 +145,12 @@ ROUND_OFF = ("imbalance", "relative_residual", "residual", "energy_balance",
 def table(path):
     with open(path) as file:
         return list(csv.DictReader(file))
+
+
+def n_steps_in(folder):
+    """Rows of the table of steps, of a body that moves or not."""
+    return max(n_rows(os.path.join(folder, name))
+               for name in ("load_steps.csv", "time_steps.csv"))
 
 
 def n_rows(path):
@@ -161,9 +192,9 @@ def run_and_kill(runner, words, folder, ranks, rows, moment):
                                stdin=subprocess.DEVNULL,
                                stdout=subprocess.DEVNULL,
                                stderr=subprocess.DEVNULL)
-    steps = os.path.join(folder, "out", "load_steps.csv")
+    out = os.path.join(folder, "out")
     end = time.time() + 200
-    while (process.poll() is None and n_rows(steps) < rows and
+    while (process.poll() is None and n_steps_in(out) < rows and
            time.time() < end):
         time.sleep(0.001)
     time.sleep(moment)
@@ -192,7 +223,7 @@ def column_scales(rows, quantities):
 
 def compare_tables(failures, one, other, tolerance):
     """All tables: the same rows; Newton's iterations on as many ranks."""
-    names = ["load_steps.csv", "quantities.csv", "crack_growth.csv",
+    names = ["load_steps.csv", "time_steps.csv", "quantities.csv", "crack_growth.csv",
              "broken_bonds.csv",
              "newton.csv"]
     for name in names:
@@ -297,7 +328,7 @@ def killed(runner, failures, selected, chance):
                        "checkpoint.part is left")
         failures.end(one)
         duration = one.results()["timings"]["total"]
-        n_steps = n_rows(one.path("load_steps.csv"))
+        n_steps = n_steps_in(os.path.dirname(one.path("log.txt")))
         for before, after in (([1, 1], 1), ([1], 2), ([2], 1)):
             failures.begin("%s: killed on %s, resumed on %d" %
                            (name, before, after))

@@ -156,6 +156,10 @@ namespace Perimorph::Application
     check_motion() const;
     bool
     starts_in_motion() const;
+    /// An explicit time step that is given, against the stability limit.
+    /// @throws Base::InputError
+    void
+    check_time_step();
     void
     check_load_balance(const Fem::NodePartition<dim> &partition) const;
 
