@@ -63,6 +63,7 @@ class Solution(dict):
     """Quantities and checks of a run by name; nan when it has none."""
 
     folder = None
+    quantity_names = ()
 
     def table(self, name):
         """Columns of a .csv file of the run; none if the run failed."""
@@ -117,6 +118,7 @@ class Study:
                     solution[name] = value
         for name, quantity in results["quantities"].items():
             solution[name] = quantity["value"]
+        solution.quantity_names = tuple(results["quantities"])
         solution["linear_solver"] = results["solver"]["linear_solver"]
         return solution
 
