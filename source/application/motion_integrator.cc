@@ -37,7 +37,11 @@ namespace Perimorph::Application
     // From here on the problem has inertia, which steps by nodes must not see.
     if (!is_explicit)
       by_newton = std::make_unique<Solvers::ImplicitMotion<dim>>(
-        problem, equilibrium, forces, mass, parameters.spectral_radius);
+        problem,
+        equilibrium,
+        forces,
+        mass,
+        parameters.spectral_radius);
   }
 
   template <int dim>
@@ -60,8 +64,8 @@ namespace Perimorph::Application
       motion.time,
       time,
       [&](const double target) {
-        record = by_newton->step(target - motion.time, motion, [](const auto &) {
-        });
+        record =
+          by_newton->step(target - motion.time, motion, [](const auto &) {});
         newton_iterations += record.n_iterations();
         linear_iterations += record.linear_iterations;
         return record.converged;

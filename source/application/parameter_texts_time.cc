@@ -43,7 +43,7 @@ namespace Perimorph::Application
     prm.add_parameter("output interval",
                       output_interval,
                       "Time between the rows of quantities.csv and "
-                      "load_steps.csv of a motion; 0: end time / number of "
+                      "time_steps.csv of a motion; 0: end time / number of "
                       "steps, or 100 rows if there is one step.",
                       Double(0.));
     prm.add_parameter("field interval",
@@ -61,7 +61,8 @@ namespace Perimorph::Application
                       Anything());
     prm.add_parameter("maximum relaxation steps",
                       maximum_relaxation_steps,
-                      "Of scheme = relaxation, per load step.",
+                      "Of scheme = relaxation, per load step; they count as "
+                      "linear iterations.",
                       Integer(1));
     prm.leave_subsection();
   }

@@ -1,6 +1,6 @@
 #include <perimorph/application/post_processing.h>
-#include <perimorph/fem/lumped_mass.h>
 #include <perimorph/fem/body_force.h>
+#include <perimorph/fem/lumped_mass.h>
 
 #include <algorithm>
 #include <cmath>

@@ -85,9 +85,9 @@ namespace Perimorph::Application
         report_skipped(method);
         if (parameters.compare_with_finite_elements &&
             parameters.region.mode != Mesh::Mode::finite_elements)
-          compare_with_finite_elements(
-            parameters.time_integration.has_inertia() ? last_state :
-                                                        gather(method));
+          compare_with_finite_elements(parameters.time_integration.has_inertia()
+                                         ? last_state
+                                         : gather(method));
         finish(complete ? Output::Status::converged : Output::Status::stopped);
       }
     catch (const Base::SolveError &)

@@ -118,15 +118,23 @@ namespace Perimorph::Application
         const auto [i, j] = bond.nodes;
         const auto xi     = nodal.nodes[j] - nodal.nodes[i];
         const auto eta    = state.displacement[j] - state.displacement[i];
-        auto       one    = Coupling::bond_state(
-          nodal, method.region, materials.bond_constants, i, j, eta);
+        auto       one    = Coupling::bond_state(nodal,
+                                        method.region,
+                                        materials.bond_constants,
+                                        i,
+                                        j,
+                                        eta);
         // Where elements carry a part, the whole bond would have more.
-        one.energy = bond.energy / (0.5 * (std::max(alpha[i], 1e-3) +
-                                           std::max(alpha[j], 1e-3)));
-        one.teeth_lost     = broken.teeth_lost(i, j);
+        one.energy =
+          bond.energy /
+          (0.5 * (std::max(alpha[i], 1e-3) + std::max(alpha[j], 1e-3)));
+        one.teeth_lost = broken.teeth_lost(i, j);
         if (!particles.nodes.empty())
-          Coupling::see_particles<dim>(
-            particles.nodes[i], particles.nodes[j], xi, eta, one);
+          Coupling::see_particles<dim>(particles.nodes[i],
+                                       particles.nodes[j],
+                                       xi,
+                                       eta,
+                                       one);
         const double factor =
           is_protected[i] || is_protected[j] ? never
           : Damage::uses_strengths(parameters.growth.criterion)

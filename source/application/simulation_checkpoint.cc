@@ -200,8 +200,8 @@ namespace Perimorph::Application
       arrays["displacement"] = in_file_order(*mesh, state.displacement);
       if (!state.velocity.empty())
         {
-          arrays["velocity"]     = in_file_order(*mesh, state.velocity);
-          arrays["acceleration"] = in_file_order(*mesh, state.acceleration);
+          arrays["velocity"]        = in_file_order(*mesh, state.velocity);
+          arrays["acceleration"]    = in_file_order(*mesh, state.acceleration);
           numbers["work of motion"] = method.motion.work;
         }
       if (!direction.empty())
@@ -359,10 +359,10 @@ namespace Perimorph::Application
               std::make_pair("acceleration", &motion.acceleration)})
           {
             partition.initialize(*vector);
-            Fem::set_nodal_values(vectors_from_file_order(*mesh,
-                                                          arrays.at(name)),
-                                  partition,
-                                  *vector);
+            Fem::set_nodal_values(
+              vectors_from_file_order(*mesh, arrays.at(name)),
+              partition,
+              *vector);
           }
       }
     method.equilibrium->restore(

@@ -28,8 +28,8 @@ namespace Perimorph::Application
   Simulation<dim>::starts_in_motion() const
   {
     const auto &time = parameters.time_integration;
-    for (const auto *field : {&time.initial_displacement,
-                              &time.initial_velocity})
+    for (const auto *field :
+         {&time.initial_displacement, &time.initial_velocity})
       for (const auto &component : *field)
         if (component)
           return true;
@@ -48,23 +48,22 @@ namespace Perimorph::Application
       "with scheme '" + time_scheme_names()[static_cast<int>(time.scheme)] +
       "'";
     if (!supports->mean_constraints().empty())
-      errors.add_parameter("Boundary conditions / mean displacement",
-                           "'" + parameters.boundary_conditions
-                                   .mean_displacement.front()
-                                   .boundary +
-                             "' " + scheme,
-                           "displacement, symmetry",
-                           "Only 'static' holds boundaries as a whole.");
+      errors.add_parameter(
+        "Boundary conditions / mean displacement",
+        "'" +
+          parameters.boundary_conditions.mean_displacement.front().boundary +
+          "' " + scheme,
+        "displacement, symmetry",
+        "Only 'static' holds boundaries as a whole.");
     if (!supports->rigid_plates().empty())
-      errors.add_parameter("Boundary conditions / rigid plate",
-                           "'" + parameters.boundary_conditions.rigid_plates
-                                   .front()
-                                   .boundary +
-                             "' " + scheme,
-                           "displacement, symmetry",
-                           "Only 'static' holds boundaries as a whole.");
-    for (const auto *field : {&time.initial_displacement,
-                              &time.initial_velocity})
+      errors.add_parameter(
+        "Boundary conditions / rigid plate",
+        "'" + parameters.boundary_conditions.rigid_plates.front().boundary +
+          "' " + scheme,
+        "displacement, symmetry",
+        "Only 'static' holds boundaries as a whole.");
+    for (const auto *field :
+         {&time.initial_displacement, &time.initial_velocity})
       for (const auto &component : *field)
         if (component)
           for (const auto &node : mesh->nodal().nodes)
@@ -76,17 +75,21 @@ namespace Perimorph::Application
   template <int dim>
   Solvers::NewtonRecord
   Simulation<dim>::solve_equilibrium(
-    const double                                          time,
-    Method                                               &method,
-    const typename Solvers::Equilibrium<dim>::Report     &report)
+    const double                                      time,
+    Method                                           &method,
+    const typename Solvers::Equilibrium<dim>::Report &report)
   {
     const auto &choice = parameters.time_integration;
     if (choice.scheme != TimeScheme::relaxation)
       return method.equilibrium->solve(time, method.displacement, report);
     if (!method.relaxation)
       {
-        method.forces = std::make_unique<Solvers::NodalForces<dim>>(
-          *mesh, *method.problem, *supports, *loads, timing);
+        method.forces =
+          std::make_unique<Solvers::NodalForces<dim>>(*mesh,
+                                                      *method.problem,
+                                                      *supports,
+                                                      *loads,
+                                                      timing);
         method.relaxation = std::make_unique<Solvers::DynamicRelaxation<dim>>(
           *method.forces,
           Solvers::RelaxationParameters{parameters.newton.tolerance,
@@ -129,7 +132,7 @@ namespace Perimorph::Application
   State<dim>
   Simulation<dim>::gather_motion(const Method               &method,
                                  const Solvers::MotionState &motion,
-                                 const Fem::Vector &internal_force,
+                                 const Fem::Vector          &internal_force,
                                  const Fem::Vector &external_force) const
   {
     const auto &partition = method.problem->partition();
@@ -190,8 +193,8 @@ namespace Perimorph::Application
              << time.time_step;
         throw Base::SolveError(text.str());
       }
-    return time.time_step > 0. ? time.time_step :
-                                 time.safety_factor * stable_time_step *
+    return time.time_step > 0. ? time.time_step
+                               : time.safety_factor * stable_time_step *
                                    (is_explicit ? 1. : implicit_over_explicit);
   }
 
@@ -202,8 +205,8 @@ namespace Perimorph::Application
     const auto &time = parameters.time_integration;
     if (time.scheme != TimeScheme::explicit_motion || time.time_step == 0.)
       return;
-    Method method    = set_up(parameters.region.mode);
-    node_mass        = Fem::lumped_mass(mesh->nodal(), materials.density);
+    Method method = set_up(parameters.region.mode);
+    node_mass     = Fem::lumped_mass(mesh->nodal(), materials.density);
     const auto limit =
       make_integrator(method)->stable_time_step(initial_motion(method));
     if (time.time_step <= limit)
@@ -228,7 +231,8 @@ namespace Perimorph::Application
     const auto forces   = integrator.forces_of(motion);
     method.displacement = motion.displacement;
     method.time         = motion.time;
-    instant.state = gather_motion(method, motion, forces.internal, forces.external);
+    instant.state =
+      gather_motion(method, motion, forces.internal, forces.external);
     instant.kinetic_energy =
       Solvers::kinetic_energy<dim>(method.problem->partition(),
                                    node_mass,
@@ -260,9 +264,9 @@ namespace Perimorph::Application
 
     const bool is_explicit =
       parameters.time_integration.scheme == TimeScheme::explicit_motion;
-    const auto times    = parameters.times();
-    auto      &motion   = method.motion;
-    node_mass           = Fem::lumped_mass(mesh->nodal(), materials.density);
+    const auto times      = parameters.times();
+    auto      &motion     = method.motion;
+    node_mass             = Fem::lumped_mass(mesh->nodal(), materials.density);
     auto       integrator = make_integrator(method);
     const bool is_fresh   = motion.displacement.size() == 0;
     if (is_fresh)
@@ -291,20 +295,19 @@ namespace Perimorph::Application
             Instant      instant{number};
             for (unsigned int n = steps_that_fill(end - motion.time, longest);
                  n > 0;
-                 n = motion.time < end ?
-                       steps_that_fill(end - motion.time, longest) :
-                       0)
+                 n = motion.time < end
+                       ? steps_that_fill(end - motion.time, longest)
+                       : 0)
               {
-                integrator->step_to(n == 1 ? end :
-                                             motion.time +
-                                               (end - motion.time) / n,
-                                    motion,
-                                    instant.newton_iterations,
-                                    instant.linear_iterations);
+                integrator->step_to(
+                  n == 1 ? end : motion.time + (end - motion.time) / n,
+                  motion,
+                  instant.newton_iterations,
+                  instant.linear_iterations);
                 ++n_time_steps;
                 ++instant.time_steps;
-                bar.update(static_cast<std::size_t>(
-                  1000. * motion.time / parameters.end_time));
+                bar.update(static_cast<std::size_t>(1000. * motion.time /
+                                                    parameters.end_time));
                 if (breaks)
                   {
                     const auto change = break_in_motion(method, bonds);
@@ -321,8 +324,8 @@ namespace Perimorph::Application
                         limit_is_old)
                       {
                         stable_time_step = 0.;
-                        longest      = longest_time_step(*integrator, method);
-                        limit_is_old = false;
+                        longest        = longest_time_step(*integrator, method);
+                        limit_is_old   = false;
                         steps_of_limit = 0;
                       }
                   }
@@ -344,19 +347,19 @@ namespace Perimorph::Application
   void
   Simulation<dim>::integrate_in_time(Method &method)
   {
-    const auto        &time       = parameters.time_integration;
-    auto              &step_table = open_table("time_steps.csv",
+    const auto        &time           = parameters.time_integration;
+    auto              &step_table     = open_table("time_steps.csv",
                                   {"step",
-                                                "time",
-                                                "time_steps",
-                                                "newton_iterations",
-                                                "linear_iterations",
-                                                "strain_energy",
-                                                "kinetic_energy",
-                                                "external_work",
-                                                "dissipated_energy",
-                                                "energy_balance",
-                                                "largest_displacement"});
+                                                    "time",
+                                                    "time_steps",
+                                                    "newton_iterations",
+                                                    "linear_iterations",
+                                                    "strain_energy",
+                                                    "kinetic_energy",
+                                                    "external_work",
+                                                    "dissipated_energy",
+                                                    "energy_balance",
+                                                    "largest_displacement"});
     Output::CsvWriter *quantity_table = nullptr;
     double             field_time     = progress.step.time;
     bool               evaluated      = false;
@@ -391,8 +394,8 @@ namespace Perimorph::Application
         }
       std::vector<Output::CsvCell> row = {instant.number, state.time};
       for (const auto &quantity : values)
-        row.push_back(quantity.exists ? Output::CsvCell(quantity.value) :
-                                        Output::CsvCell(""));
+        row.push_back(quantity.exists ? Output::CsvCell(quantity.value)
+                                      : Output::CsvCell(""));
       quantity_table->write_row(row);
       progress.number = instant.number;
       progress.step   = {instant.number, state.time};
@@ -437,10 +440,12 @@ namespace Perimorph::Application
   }
 
 #define PERIMORPH_INSTANTIATE(dim)                                           \
-  template bool Simulation<dim>::starts_in_motion() const;                   \
-  template void Simulation<dim>::check_motion() const;                       \
+  template bool                  Simulation<dim>::starts_in_motion() const;  \
+  template void                  Simulation<dim>::check_motion() const;      \
   template Solvers::NewtonRecord Simulation<dim>::solve_equilibrium(         \
-    double, Method &, const Solvers::Equilibrium<dim>::Report &);            \
+    double,                                                                  \
+    Method &,                                                                \
+    const Solvers::Equilibrium<dim>::Report &);                              \
   template Solvers::MotionState Simulation<dim>::initial_motion(             \
     const Method &) const;                                                   \
   template State<dim> Simulation<dim>::gather_motion(                        \
@@ -449,12 +454,15 @@ namespace Perimorph::Application
     const Fem::Vector &,                                                     \
     const Fem::Vector &) const;                                              \
   template std::unique_ptr<MotionIntegrator<dim>>                            \
-  Simulation<dim>::make_integrator(Method &);                                \
+                  Simulation<dim>::make_integrator(Method &);                \
   template double Simulation<dim>::longest_time_step(                        \
-    const MotionIntegrator<dim> &, const Method &);                          \
-  template void Simulation<dim>::check_time_step();                          \
+    const MotionIntegrator<dim> &,                                           \
+    const Method &);                                                         \
+  template void                     Simulation<dim>::check_time_step();      \
   template Simulation<dim>::Instant Simulation<dim>::make_instant(           \
-    Instant, const MotionIntegrator<dim> &, Method &);                       \
+    Instant,                                                                 \
+    const MotionIntegrator<dim> &,                                           \
+    Method &);                                                               \
   template void Simulation<dim>::follow_motion(Method &, const OnInstant &); \
   template void Simulation<dim>::integrate_in_time(Method &);
 

@@ -22,18 +22,21 @@ namespace Perimorph::Application
     const Coupling::MotionDamage damage{
       *breaking_rule,
       Damage::sees_particles(parameters.growth.criterion),
-      Damage::uses_strengths(parameters.growth.criterion) ?
-        &parameters.growth.strengths :
-        nullptr,
+      Damage::uses_strengths(parameters.growth.criterion)
+        ? &parameters.growth.strengths
+        : nullptr,
       is_protected,
       broken,
       node_mass,
-      parameters.time_integration.scheme == TimeScheme::explicit_motion ?
-        share_of_family * std::pow(2. / limit_at_start, 2) :
-        std::numeric_limits<double>::infinity()};
+      parameters.time_integration.scheme == TimeScheme::explicit_motion
+        ? share_of_family * std::pow(2. / limit_at_start, 2)
+        : std::numeric_limits<double>::infinity()};
     if (parameters.coupling.model == Coupling::Model::bond_based)
-      return Coupling::make_moving_pairs<dim>(
-        *mesh, method.region, materials, damage, *method.problem);
+      return Coupling::make_moving_pairs<dim>(*mesh,
+                                              method.region,
+                                              materials,
+                                              damage,
+                                              *method.problem);
     return Coupling::make_moving_families<dim>(
       *mesh,
       method.region,
@@ -71,7 +74,7 @@ namespace Perimorph::Application
         const double before = method.problem->strain_energy(start);
         grow_core_in_motion(method, found.outside_core);
         // Takes the weight of families that are too stiff.
-        bonds               = make_moving_bonds(method);
+        bonds = make_moving_bonds(method);
         Fem::Vector same(method.motion.displacement);
         same.update_ghost_values();
         switched_energy += method.problem->strain_energy(same) - before;
@@ -177,14 +180,15 @@ namespace Perimorph::Application
         << method.region.n_core << " nodes" << std::endl;
   }
 
-#define PERIMORPH_INSTANTIATE(dim)                                     \
-  template std::unique_ptr<Coupling::MovingBonds<dim>>                 \
-  Simulation<dim>::make_moving_bonds(Method &) const;                  \
-  template Simulation<dim>::MotionChange                               \
-  Simulation<dim>::break_in_motion(                                    \
-    Method &, std::unique_ptr<Coupling::MovingBonds<dim>> &);          \
-  template void Simulation<dim>::grow_core_in_motion(                  \
-    Method &, const std::vector<std::array<unsigned int, 2>> &);
+#define PERIMORPH_INSTANTIATE(dim)                                         \
+  template std::unique_ptr<Coupling::MovingBonds<dim>>                     \
+  Simulation<dim>::make_moving_bonds(Method &) const;                      \
+  template Simulation<dim>::MotionChange Simulation<dim>::break_in_motion( \
+    Method &,                                                              \
+    std::unique_ptr<Coupling::MovingBonds<dim>> &);                        \
+  template void Simulation<dim>::grow_core_in_motion(                      \
+    Method &,                                                              \
+    const std::vector<std::array<unsigned int, 2>> &);
   PERIMORPH_INSTANTIATE(2)
   PERIMORPH_INSTANTIATE(3)
 #undef PERIMORPH_INSTANTIATE

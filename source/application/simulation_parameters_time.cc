@@ -45,8 +45,8 @@ namespace Perimorph::Application
                                "'",
                              "nothing, or scheme = explicit or implicit",
                              "Only motion has a start.");
-      return read.empty() ? Fem::ComponentExpressions<dim>() :
-                            component_expressions(section + entry,
+      return read.empty() ? Fem::ComponentExpressions<dim>()
+                          : component_expressions(section + entry,
                                                   read[0].components,
                                                   errors);
     };
@@ -81,8 +81,7 @@ namespace Perimorph::Application
                              texts.scheme + "'",
                            "never",
                            "Segments advance in equilibrium.");
-    if (growth.bonds &&
-        growth.criterion == Damage::Criterion::critical_energy)
+    if (growth.bonds && growth.criterion == Damage::Criterion::critical_energy)
       errors.add_parameter("Cracks / criterion",
                            "'critical energy' with scheme '" + texts.scheme +
                              "'",
@@ -98,11 +97,11 @@ namespace Perimorph::Application
     const auto check_density = [&](const std::string       &entry,
                                    const MaterialConstants &constants) {
       if (constants.density == 0.)
-        errors.add_parameter(entry,
-                             "nothing or 0",
-                             "a number > 0",
-                             "Bodies that move need it (scheme = " +
-                               texts.scheme + ").");
+        errors.add_parameter(
+          entry,
+          "nothing or 0",
+          "a number > 0",
+          "Bodies that move need it (scheme = " + texts.scheme + ").");
     };
     check_density("Material / density", material);
     for (const auto &[name, constants] : volume_materials)
@@ -118,9 +117,9 @@ namespace Perimorph::Application
           errors.add_parameter(section + entry, found.str(), allowed.str());
         }
     if (texts.output_interval > 0.)
-      n_steps = std::max(
-        1u,
-        static_cast<unsigned int>(std::lround(end_time / texts.output_interval)));
+      n_steps = std::max(1u,
+                         static_cast<unsigned int>(
+                           std::lround(end_time / texts.output_interval)));
     else if (n_steps == 1)
       n_steps = 100;
     if (time.field_interval == 0.)

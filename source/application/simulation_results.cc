@@ -366,7 +366,8 @@ namespace Perimorph::Application
                         segment_solves +
                           (handed_over ? n_solves() - solves_before : 0u));
           }
-        result->set("growth", "released_energy", released_energy);
+        if (!parameters.time_integration.has_inertia())
+          result->set("growth", "released_energy", released_energy);
         result->set("growth", "dissipated_energy", dissipated_energy);
       }
     const auto table  = timing.table();

@@ -71,11 +71,10 @@ namespace Perimorph::Application
             << ", t = " << end << std::endl;
         const auto attempt = [&](const double target) {
           step.time = target;
-          record    = solve_equilibrium(target,
-                                     method,
-                                     [&](const auto &iteration) {
-                                       on_newton(step, iteration);
-                                     });
+          record =
+            solve_equilibrium(target, method, [&](const auto &iteration) {
+              on_newton(step, iteration);
+            });
           step.newton_iterations += record.n_iterations();
           step.linear_iterations += record.linear_iterations;
           if (record.converged)

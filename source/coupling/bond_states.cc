@@ -66,16 +66,16 @@ namespace Perimorph::Coupling
     return in_core;
   }
 
-#define PERIMORPH_INSTANTIATE(dim)                               \
-  template Damage::BondState bond_state<dim>(                    \
-    const Mesh::NodalMesh<dim> &,                                \
-    const Mesh::RegionMap &,                                     \
-    const std::vector<BondMaterial> &,                           \
-    unsigned int,                                                \
-    unsigned int,                                                \
-    const dealii::Tensor<1, dim> &);                             \
-  template void see_particles<dim>(const ParticleState &,        \
-                                   const ParticleState &,        \
+#define PERIMORPH_INSTANTIATE(dim)                                 \
+  template Damage::BondState bond_state<dim>(                      \
+    const Mesh::NodalMesh<dim> &,                                  \
+    const Mesh::RegionMap &,                                       \
+    const std::vector<BondMaterial> &,                             \
+    unsigned int,                                                  \
+    unsigned int,                                                  \
+    const dealii::Tensor<1, dim> &);                               \
+  template void see_particles<dim>(const ParticleState &,          \
+                                   const ParticleState &,          \
                                    const dealii::Tensor<1, dim> &, \
                                    const dealii::Tensor<1, dim> &, \
                                    Damage::BondState &);

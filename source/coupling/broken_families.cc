@@ -84,19 +84,16 @@ namespace Perimorph::Coupling
                const std::size_t                   p,
                Peridynamics::FamilySet<dim>       &set)
   {
-    const unsigned int node = families.node[p];
-    const auto begin  = set.neighbor.size();
-    bool       softer = false;
-    for (std::size_t b = families.offsets[p]; b < families.offsets[p + 1];
-         ++b)
+    const unsigned int node   = families.node[p];
+    const auto         begin  = set.neighbor.size();
+    bool               softer = false;
+    for (std::size_t b = families.offsets[p]; b < families.offsets[p + 1]; ++b)
       if (!broken.contains(node, families.neighbor[b]))
         {
-          const double share =
-            broken.share_left(node, families.neighbor[b]);
-          softer = softer || share < 1.;
+          const double share = broken.share_left(node, families.neighbor[b]);
+          softer             = softer || share < 1.;
           set.neighbor.push_back(families.neighbor[b]);
-          set.gradient_weight.push_back(share *
-                                        families.gradient_weight[b]);
+          set.gradient_weight.push_back(share * families.gradient_weight[b]);
           set.bond_weight.push_back(families.bond_weight[b]);
         }
     const bool is_whole =
@@ -140,8 +137,7 @@ namespace Perimorph::Coupling
     for (std::size_t b = begin; b < set.neighbor.size(); ++b)
       set.gradient_weight[b] +=
         set.bond_weight[b] *
-        (rest *
-         (inverse * (mesh.nodes[set.neighbor[b]] - mesh.nodes[node])));
+        (rest * (inverse * (mesh.nodes[set.neighbor[b]] - mesh.nodes[node])));
     close_row(particle, families.weight[p], parameters, inverse, set);
     return true;
   }
@@ -238,31 +234,30 @@ namespace Perimorph::Coupling
     return part;
   }
 
-#define PERIMORPH_INSTANTIATE(dim)                        \
-  template Peridynamics::FamilySet<dim> break_bonds<dim>( \
-    const Mesh::NodalMesh<dim> &,                         \
-    const std::vector<double> &,                          \
-    const FamilyParameters &,                             \
-    const Bonds::BrokenBonds &,                           \
-    const Peridynamics::FamilySet<dim> &,                 \
-    std::size_t &);                                       \
-  template bool break_family<dim>(                        \
-    const Mesh::NodalMesh<dim> &,                         \
-    const std::vector<double> &,                          \
-    const FamilyParameters &,                             \
-    const Bonds::BrokenBonds &,                           \
-    const Peridynamics::FamilySet<dim> &,                 \
-    std::size_t,                                          \
-    Peridynamics::FamilySet<dim> &);                      \
-  template std::vector<unsigned int> find_parts<dim>(     \
-    const Mesh::NodalMesh<dim> &,                         \
-    const std::vector<double> &,                          \
-    const Peridynamics::FamilySet<dim> &,                 \
-    MPI_Comm);                                            \
-  template std::vector<unsigned int> find_parts<dim>(     \
-    const Mesh::NodalMesh<dim> &,                         \
-    const std::vector<double> &,                          \
-    const std::vector<std::array<unsigned int, 2>> &,     \
+#define PERIMORPH_INSTANTIATE(dim)                                      \
+  template Peridynamics::FamilySet<dim> break_bonds<dim>(               \
+    const Mesh::NodalMesh<dim> &,                                       \
+    const std::vector<double> &,                                        \
+    const FamilyParameters &,                                           \
+    const Bonds::BrokenBonds &,                                         \
+    const Peridynamics::FamilySet<dim> &,                               \
+    std::size_t &);                                                     \
+  template bool break_family<dim>(const Mesh::NodalMesh<dim> &,         \
+                                  const std::vector<double> &,          \
+                                  const FamilyParameters &,             \
+                                  const Bonds::BrokenBonds &,           \
+                                  const Peridynamics::FamilySet<dim> &, \
+                                  std::size_t,                          \
+                                  Peridynamics::FamilySet<dim> &);      \
+  template std::vector<unsigned int> find_parts<dim>(                   \
+    const Mesh::NodalMesh<dim> &,                                       \
+    const std::vector<double> &,                                        \
+    const Peridynamics::FamilySet<dim> &,                               \
+    MPI_Comm);                                                          \
+  template std::vector<unsigned int> find_parts<dim>(                   \
+    const Mesh::NodalMesh<dim> &,                                       \
+    const std::vector<double> &,                                        \
+    const std::vector<std::array<unsigned int, 2>> &,                   \
     MPI_Comm);
 
   PERIMORPH_INSTANTIATE(2)

@@ -51,11 +51,10 @@ namespace Perimorph::Coupling
       {
         std::vector<std::size_t> order(end - begin);
         std::iota(order.begin(), order.end(), 0);
-        std::stable_partition(order.begin(),
-                              order.end(),
-                              [&](const std::size_t k) {
-                                return has_gradient(begin[k]);
-                              });
+        std::stable_partition(
+          order.begin(),
+          order.end(),
+          [&](const std::size_t k) { return has_gradient(begin[k]); });
         const auto reorder = [&](auto &list) {
           const auto row = std::vector(list.begin() + first,
                                        list.begin() + first + order.size());
@@ -78,20 +77,20 @@ namespace Perimorph::Coupling
     const bool                          is_isolated,
     const Fem::NodePartition<dim>      &partition)
   {
-    const std::size_t last  = remains.n_particles() - 1;
-    const std::size_t from  = is_isolated ? 0 : remains.offsets[last];
-    const std::size_t n     = is_isolated ? 0 : remains.offsets[last + 1] - from;
-    const std::size_t first = families.offsets[particle];
+    const std::size_t last = remains.n_particles() - 1;
+    const std::size_t from = is_isolated ? 0 : remains.offsets[last];
+    const std::size_t n    = is_isolated ? 0 : remains.offsets[last + 1] - from;
+    const std::size_t first   = families.offsets[particle];
     families.weight[particle] = is_isolated ? 0. : remains.weight[last];
     if (!is_isolated)
       families.stabilization[particle] = remains.stabilization[last];
     // Bonds to itself without weights fill the places of the broken ones.
     for (std::size_t b = first; b < families.offsets[particle + 1]; ++b)
       {
-        const bool is_left   = b - first < n;
-        const auto k         = from + (b - first);
-        families.neighbor[b] = is_left ? partition.local(remains.neighbor[k]) :
-                                         families.node[particle];
+        const bool is_left      = b - first < n;
+        const auto k            = from + (b - first);
+        families.neighbor[b]    = is_left ? partition.local(remains.neighbor[k])
+                                          : families.node[particle];
         families.bond_weight[b] = is_left ? remains.bond_weight[k] : 0.;
         families.gradient_weight[b] =
           is_left ? remains.gradient_weight[k] : dealii::Tensor<1, dim>();

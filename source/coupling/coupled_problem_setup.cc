@@ -201,10 +201,9 @@ namespace Perimorph::Coupling
                                            const Bonds::BrokenBonds   &broken,
                                            const Progress             &progress)
   {
-    const auto      &nodal  = mesh.nodal();
-    const bool       forces = parameters.scheme == Scheme::force_blending;
-    auto             options =
-      family_parameters(parameters, nodal, region, materials.laws);
+    const auto &nodal  = mesh.nodal();
+    const bool  forces = parameters.scheme == Scheme::force_blending;
+    auto options = family_parameters(parameters, nodal, region, materials.laws);
     options.progress = progress;
 
     IntactBonds<dim>             found;
@@ -474,22 +473,22 @@ namespace Perimorph::Coupling
                            const Mesh::NodalMesh<3> &,
                            const Mesh::RegionMap &);
 
-#define PERIMORPH_INSTANTIATE(dim)              \
-  template FamilyParameters family_parameters<dim>( \
-    const CouplingParameters &,                 \
-    const Mesh::NodalMesh<dim> &,               \
-    const Mesh::RegionMap &,                    \
+#define PERIMORPH_INSTANTIATE(dim)                          \
+  template FamilyParameters family_parameters<dim>(         \
+    const CouplingParameters &,                             \
+    const Mesh::NodalMesh<dim> &,                           \
+    const Mesh::RegionMap &,                                \
     const typename Fem::ElasticCells<dim>::MaterialList &); \
-  template CoupledProblem<dim>::CoupledProblem( \
-    const Mesh::DistributedMesh<dim> &,         \
-    const Mesh::RegionMap &,                    \
-    const BodyMaterials<dim> &,                 \
-    const CouplingParameters &,                 \
-    const Progress &,                           \
-    std::vector<unsigned int>,                  \
-    const Bonds::CrackSet<dim> &,               \
-    const Bonds::BrokenBonds &,                 \
-    SharedParts<dim>,                           \
+  template CoupledProblem<dim>::CoupledProblem(             \
+    const Mesh::DistributedMesh<dim> &,                     \
+    const Mesh::RegionMap &,                                \
+    const BodyMaterials<dim> &,                             \
+    const CouplingParameters &,                             \
+    const Progress &,                                       \
+    std::vector<unsigned int>,                              \
+    const Bonds::CrackSet<dim> &,                           \
+    const Bonds::BrokenBonds &,                             \
+    SharedParts<dim>,                                       \
     const std::vector<unsigned int> &);
 
   PERIMORPH_INSTANTIATE(2)

@@ -49,9 +49,10 @@ namespace Perimorph::Coupling
         in_core.assign(everywhere.begin(), everywhere.end());
         for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
           for (const unsigned int c : nodal.node_cells.row(n))
-            is_mixed[n] = is_mixed[n] ||
-                          nodal.cell_material[c] !=
-                            nodal.cell_material[*nodal.node_cells.row(n).begin()];
+            is_mixed[n] =
+              is_mixed[n] ||
+              nodal.cell_material[c] !=
+                nodal.cell_material[*nodal.node_cells.row(n).begin()];
         for (std::size_t p = 0; p < current.n_particles(); ++p)
           rows[current.node[p]].push_back(p);
         for (std::size_t p = 0; p < intact.n_particles(); ++p)
@@ -66,7 +67,7 @@ namespace Perimorph::Coupling
       overloaded(
         const std::vector<dealii::Tensor<1, dim>> &displacement) override
       {
-        const auto &nodal = mesh.nodal();
+        const auto       &nodal = mesh.nodal();
         ParticleStates    states;
         std::vector<bool> may_fail;
         if (damage.sees_particles)
@@ -157,8 +158,11 @@ namespace Perimorph::Coupling
         bond.youngs_modulus                                     = 1.;
         dealii::Tensor<1, dim> along;
         along[0] = 1.;
-        see_particles(
-          states.nodes[node], states.nodes[node], along, along, bond);
+        see_particles(states.nodes[node],
+                      states.nodes[node],
+                      along,
+                      along,
+                      bond);
         return load_factor({{node, node}}, states, bond) <= 1.;
       }
 
@@ -172,8 +176,8 @@ namespace Perimorph::Coupling
                                                           materials,
                                                           *damage.strengths,
                                                           damage.rule,
-                                                          bond) :
-                                  damage.rule.load_factor(bond);
+                                                          bond)
+                                : damage.rule.load_factor(bond);
       }
 
       /// Of the largest eigenvalue of a family alone: that of C times that of
@@ -182,8 +186,8 @@ namespace Perimorph::Coupling
       eigenvalue_bound(const Peridynamics::FamilySet<dim> &family) const
       {
         const unsigned int node = family.node[0];
-        const auto         A    = materials.laws[family.material[0]]->tangent(
-          dealii::Tensor<2, dim>());
+        const auto         A =
+          materials.laws[family.material[0]]->tangent(dealii::Tensor<2, dim>());
         double                 gradient = 0., stretch = 0.;
         dealii::Tensor<1, dim> sum;
         for (std::size_t b = 0; b < family.n_bonds(); ++b)
@@ -203,27 +207,27 @@ namespace Perimorph::Coupling
       replace(const std::size_t p, const std::size_t of_intact)
       {
         Peridynamics::FamilySet<dim> remains;
-        const bool                   is_left = break_family(mesh.nodal(),
-                                          region.horizon,
-                                          parameters,
-                                          damage.broken,
-                                          intact,
-                                          of_intact,
-                                          remains) &&
-                             eigenvalue_bound(remains) <=
-                               damage.largest_eigenvalue;
+        const bool                   is_left =
+          break_family(mesh.nodal(),
+                       region.horizon,
+                       parameters,
+                       damage.broken,
+                       intact,
+                       of_intact,
+                       remains) &&
+          eigenvalue_bound(remains) <= damage.largest_eigenvalue;
         term.replace_family(p, remains, !is_left, partition);
         const std::size_t first = current.offsets[p];
         const std::size_t n     = is_left ? remains.n_bonds() : 0;
         current.weight[p]       = is_left ? remains.weight[0] : 0.;
         for (std::size_t b = first; b < current.offsets[p + 1]; ++b)
           {
-            const bool here     = b - first < n;
-            current.neighbor[b] = here ? remains.neighbor[b - first] :
-                                         current.node[p];
-            current.gradient_weight[b] =
-              here ? remains.gradient_weight[b - first] :
-                     dealii::Tensor<1, dim>();
+            const bool here = b - first < n;
+            current.neighbor[b] =
+              here ? remains.neighbor[b - first] : current.node[p];
+            current.gradient_weight[b] = here
+                                           ? remains.gradient_weight[b - first]
+                                           : dealii::Tensor<1, dim>();
           }
       }
 
@@ -251,18 +255,22 @@ namespace Perimorph::Coupling
                        const MotionDamage               &damage,
                        CoupledProblem<dim>              &problem)
   {
-    return std::make_unique<MovingFamilies<dim>>(
-      mesh, region, materials, parameters, damage, problem);
+    return std::make_unique<MovingFamilies<dim>>(mesh,
+                                                 region,
+                                                 materials,
+                                                 parameters,
+                                                 damage,
+                                                 problem);
   }
 
-#define PERIMORPH_INSTANTIATE(dim)                        \
-  template std::unique_ptr<MovingBonds<dim>>              \
-  make_moving_families<dim>(const Mesh::DistributedMesh<dim> &, \
-                            const Mesh::RegionMap &,      \
-                            const BodyMaterials<dim> &,   \
-                            const FamilyParameters &,     \
-                            const MotionDamage &,         \
-                            CoupledProblem<dim> &);
+#define PERIMORPH_INSTANTIATE(dim)                                      \
+  template std::unique_ptr<MovingBonds<dim>> make_moving_families<dim>( \
+    const Mesh::DistributedMesh<dim> &,                                 \
+    const Mesh::RegionMap &,                                            \
+    const BodyMaterials<dim> &,                                         \
+    const FamilyParameters &,                                           \
+    const MotionDamage &,                                               \
+    CoupledProblem<dim> &);
   PERIMORPH_INSTANTIATE(2)
   PERIMORPH_INSTANTIATE(3)
 #undef PERIMORPH_INSTANTIATE

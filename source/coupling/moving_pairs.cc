@@ -141,15 +141,15 @@ namespace Perimorph::Coupling
         critical[b]     = damage.rule.load_factor(bond) * xi.norm_square();
       }
 
-      const Mesh::DistributedMesh<dim>        &mesh;
-      const Mesh::RegionMap                   &region;
-      const BodyMaterials<dim>                &materials;
-      const MotionDamage                       damage;
-      CoupledProblem<dim>                     &problem;
-      BondTerm<dim>                           &term;
-      std::vector<std::array<unsigned int, 2>> pairs;
-      std::vector<double>                      share, critical;
-      std::vector<bool>                        in_core;
+      const Mesh::DistributedMesh<dim>                  &mesh;
+      const Mesh::RegionMap                             &region;
+      const BodyMaterials<dim>                          &materials;
+      const MotionDamage                                 damage;
+      CoupledProblem<dim>                               &problem;
+      BondTerm<dim>                                     &term;
+      std::vector<std::array<unsigned int, 2>>           pairs;
+      std::vector<double>                                share, critical;
+      std::vector<bool>                                  in_core;
       std::map<std::array<unsigned int, 2>, std::size_t> place; ///< of pairs
     };
   } // namespace
@@ -162,17 +162,20 @@ namespace Perimorph::Coupling
                     const MotionDamage               &damage,
                     CoupledProblem<dim>              &problem)
   {
-    return std::make_unique<MovingPairs<dim>>(
-      mesh, region, materials, damage, problem);
+    return std::make_unique<MovingPairs<dim>>(mesh,
+                                              region,
+                                              materials,
+                                              damage,
+                                              problem);
   }
 
-#define PERIMORPH_INSTANTIATE(dim)                           \
-  template std::unique_ptr<MovingBonds<dim>>                 \
-  make_moving_pairs<dim>(const Mesh::DistributedMesh<dim> &, \
-                         const Mesh::RegionMap &,            \
-                         const BodyMaterials<dim> &,         \
-                         const MotionDamage &,               \
-                         CoupledProblem<dim> &);
+#define PERIMORPH_INSTANTIATE(dim)                                   \
+  template std::unique_ptr<MovingBonds<dim>> make_moving_pairs<dim>( \
+    const Mesh::DistributedMesh<dim> &,                              \
+    const Mesh::RegionMap &,                                         \
+    const BodyMaterials<dim> &,                                      \
+    const MotionDamage &,                                            \
+    CoupledProblem<dim> &);
   PERIMORPH_INSTANTIATE(2)
   PERIMORPH_INSTANTIATE(3)
 #undef PERIMORPH_INSTANTIATE

@@ -43,12 +43,11 @@ namespace Perimorph::Fem
   void
   ElasticCells<dim>::remove(const std::vector<bool> &goes)
   {
-    cells.erase(std::remove_if(cells.begin(),
-                               cells.end(),
-                               [&](const Cell &cell) {
-                                 return goes[cell.number];
-                               }),
-                cells.end());
+    cells.erase(
+      std::remove_if(cells.begin(),
+                     cells.end(),
+                     [&](const Cell &cell) { return goes[cell.number]; }),
+      cells.end());
     forget_stress();
   }
 

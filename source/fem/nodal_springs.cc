@@ -49,7 +49,8 @@ namespace Perimorph::Fem
   {
     double sum = 0.;
     for (unsigned int s = 0; s < nodes.size(); ++s)
-      sum += 0.5 * factor * stiffness[s] * extension(s, displacement).norm_square();
+      sum +=
+        0.5 * factor * stiffness[s] * extension(s, displacement).norm_square();
     return sum;
   }
 
@@ -73,7 +74,8 @@ namespace Perimorph::Fem
     for (unsigned int s = 0; s < nodes.size(); ++s)
       this->add_at(product.begin(),
                    nodes[s],
-                   factor * stiffness[s] * this->value_at(direction.begin(), nodes[s]));
+                   factor * stiffness[s] *
+                     this->value_at(direction.begin(), nodes[s]));
   }
 
   template <int dim>

@@ -52,9 +52,9 @@ namespace Perimorph::Solvers
   void
   ExplicitMotion<dim>::step(const double time_step, MotionState &state)
   {
-    auto        &u = state.displacement;
-    auto        &v = state.velocity;
-    auto        &a = state.acceleration;
+    auto        &u    = state.displacement;
+    auto        &v    = state.velocity;
+    auto        &a    = state.acceleration;
     const double half = 0.5 * time_step;
     const auto   n    = u.locally_owned_size();
 
@@ -97,8 +97,7 @@ namespace Perimorph::Solvers
           }
       }
     forces.impose_hanging(u);
-    const Vector held_acceleration =
-      forces.supports_move() ? a : Vector();
+    const Vector held_acceleration = forces.supports_move() ? a : Vector();
     accelerate(state);
     for (unsigned int k = 0; k < n; ++k)
       {
@@ -122,8 +121,8 @@ namespace Perimorph::Solvers
   {
     const double frequency =
       highest_frequency(forces, moving_mass, state.displacement);
-    return frequency > 0. ? 2. / frequency :
-                            std::numeric_limits<double>::infinity();
+    return frequency > 0. ? 2. / frequency
+                          : std::numeric_limits<double>::infinity();
   }
 
   template <int dim>

@@ -63,9 +63,9 @@ namespace Perimorph::Solvers
     if (start.l2_norm() == 0.)
       return 0.;
 
-    double                          largest = 0.;
-    dealii::IterationNumberControl  control(n_steps, 1e-12 * start.l2_norm());
-    dealii::SolverCG<Vector>        lanczos(control);
+    double                         largest = 0.;
+    dealii::IterationNumberControl control(n_steps, 1e-12 * start.l2_norm());
+    dealii::SolverCG<Vector>       lanczos(control);
     lanczos.connect_eigenvalues_slot([&](const std::vector<double> &values) {
       if (!values.empty())
         largest = std::max(largest, values.back());

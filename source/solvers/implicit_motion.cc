@@ -37,10 +37,10 @@ namespace Perimorph::Solvers
                             MotionState                             &state,
                             const typename Equilibrium<dim>::Report &report)
   {
-    auto        &u  = state.displacement;
-    auto        &v  = state.velocity;
-    auto        &a  = state.acceleration;
-    const double dt = time_step;
+    auto        &u               = state.displacement;
+    auto        &v               = state.velocity;
+    auto        &a               = state.acceleration;
+    const double dt              = time_step;
     const double of_acceleration = 1. / (beta * dt * dt);
     const double c = (1. - alpha_m) * of_acceleration / (1. - alpha_f);
     inertia->set_factor(c);
@@ -52,9 +52,8 @@ namespace Perimorph::Solvers
     rest.add(-alpha_m / c, a);
     inertia->set_rest(rest);
     midpoint.add((1. - alpha_f) * dt, v, 0.5 * (1. - alpha_f) * dt * dt, a);
-    const auto record = equilibrium.solve(state.time + (1. - alpha_f) * dt,
-                                          midpoint,
-                                          report);
+    const auto record =
+      equilibrium.solve(state.time + (1. - alpha_f) * dt, midpoint, report);
     if (!record.converged)
       return record;
 

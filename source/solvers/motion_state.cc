@@ -32,14 +32,12 @@ namespace Perimorph::Solvers
     return dealii::Utilities::MPI::sum(sum, partition.communicator());
   }
 
-#define PERIMORPH_INSTANTIATE(dim)                           \
-  template Fem::Vector mass_of_unknowns<dim>(                 \
-    const Fem::NodePartition<dim> &,                          \
-    const std::vector<double> &);                             \
-  template double kinetic_energy<dim>(                        \
-    const Fem::NodePartition<dim> &,                          \
-    const std::vector<double> &,                              \
-    const Fem::Vector &);
+#define PERIMORPH_INSTANTIATE(dim)                                            \
+  template Fem::Vector mass_of_unknowns<dim>(const Fem::NodePartition<dim> &, \
+                                             const std::vector<double> &);    \
+  template double      kinetic_energy<dim>(const Fem::NodePartition<dim> &,   \
+                                      const std::vector<double> &,       \
+                                      const Fem::Vector &);
   PERIMORPH_INSTANTIATE(2)
   PERIMORPH_INSTANTIATE(3)
 #undef PERIMORPH_INSTANTIATE

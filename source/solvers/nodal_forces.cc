@@ -21,9 +21,9 @@ namespace Perimorph::Solvers
     const auto &owned = partition().owned_dofs();
     for (const auto &[unknown, entry] : supports.entries())
       {
-        moving_supports = moving_supports ||
-                          (entry.expression &&
-                           entry.expression->depends_on_time());
+        moving_supports =
+          moving_supports ||
+          (entry.expression && entry.expression->depends_on_time());
         if (!owned.is_element(unknown))
           continue;
         held_unknowns.push_back(unknown);

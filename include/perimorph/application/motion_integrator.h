@@ -14,15 +14,15 @@ namespace Perimorph::Application
   {
   public:
     /// @param mass  of all nodes of the mesh
-    MotionIntegrator(const Mesh::DistributedMesh<dim>            &mesh,
-                     Coupling::CoupledProblem<dim>               &problem,
-                     Solvers::Equilibrium<dim>                   &equilibrium,
-                     const Fem::Supports<dim>                    &supports,
-                     const Fem::Loads<dim>                       &loads,
-                     const std::vector<double>                   &mass,
-                     const TimeIntegrationParameters<dim>        &parameters,
-                     const Solvers::LoadSteppingParameters       &stepping,
-                     Base::Timing                                &timing);
+    MotionIntegrator(const Mesh::DistributedMesh<dim>      &mesh,
+                     Coupling::CoupledProblem<dim>         &problem,
+                     Solvers::Equilibrium<dim>             &equilibrium,
+                     const Fem::Supports<dim>              &supports,
+                     const Fem::Loads<dim>                 &loads,
+                     const std::vector<double>             &mass,
+                     const TimeIntegrationParameters<dim>  &parameters,
+                     const Solvers::LoadSteppingParameters &stepping,
+                     Base::Timing                          &timing);
 
     /// Before the first step.
     /// @param is_fresh  the acceleration is not known yet

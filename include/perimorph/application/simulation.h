@@ -224,10 +224,10 @@ namespace Perimorph::Application
     struct Instant
     {
       unsigned int number;
-      State<dim>   state = {};
+      State<dim>   state          = {};
       double       kinetic_energy = 0., energy_balance = 0.;
-      unsigned int       time_steps = 0;
-      unsigned int       newton_iterations = 0, linear_iterations = 0;
+      unsigned int time_steps        = 0;
+      unsigned int newton_iterations = 0, linear_iterations = 0;
     };
     using OnInstant = std::function<void(const Instant &)>;
     /// Follows the motion of a body to the end time; on_instant gets its states
@@ -263,9 +263,8 @@ namespace Perimorph::Application
     /// The same state with room for more bonds in the core.
     /// @throws Base::SolveError  it cannot grow there
     void
-    grow_core_in_motion(
-      Method                                         &method,
-      const std::vector<std::array<unsigned int, 2>> &bonds);
+    grow_core_in_motion(Method                                         &method,
+                        const std::vector<std::array<unsigned int, 2>> &bonds);
     Solvers::MotionState
     initial_motion(const Method &method) const;
     /// The run of a body that moves: tables, fields, checkpoints.
@@ -278,8 +277,8 @@ namespace Perimorph::Application
                   const Fem::Vector          &external_force) const;
     /// Equilibrium at a time, by Newton's method or by relaxation.
     Solvers::NewtonRecord
-    solve_equilibrium(double                                         time,
-                      Method                                        &method,
+    solve_equilibrium(double                                            time,
+                      Method                                           &method,
                       const typename Solvers::Equilibrium<dim>::Report &report);
     /// Growth of cracks: advances at the loads of the state of a method while
     /// one releases its fracture energy; on_step gets the state after each.
@@ -533,11 +532,10 @@ namespace Perimorph::Application
     double              stable_time_step = 0.; ///< 0: not known
     double              announced_limit = 0., limit_at_start = 0.;
     /// Whether bonds broke since the limit was found, and how long ago.
-    bool         limit_is_old   = false;
-    unsigned int steps_of_limit = 0;
-    double              energy_at_start = 0., largest_energy = 0.,
-           energy_drift = 0.;
-    std::size_t n_time_steps = 0;
+    bool         limit_is_old    = false;
+    unsigned int steps_of_limit  = 0;
+    double       energy_at_start = 0., largest_energy = 0., energy_drift = 0.;
+    std::size_t  n_time_steps = 0;
 
     // Progress, tables by name, checkpoints.
     Progress progress;

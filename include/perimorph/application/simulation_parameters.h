@@ -79,8 +79,8 @@ namespace Perimorph::Application
     double       end_time = 1.;
     std::string  control  = "load";
 
-    std::string scheme = "static", initial_displacement, initial_velocity;
-    double time_step = 0., safety_factor = 0.9, spectral_radius = 1.,
+    std::string scheme    = "static", initial_displacement, initial_velocity;
+    double      time_step = 0., safety_factor = 0.9, spectral_radius = 1.,
            output_interval = 0., field_interval = 0.;
     unsigned int maximum_relaxation_steps = 200000;
 
@@ -145,12 +145,12 @@ namespace Perimorph::Application
   template <int dim>
   struct TimeIntegrationParameters
   {
-    TimeScheme   scheme;
-    double       time_step;       ///< 0: automatic
-    double       safety_factor;   ///< of the stable time step
-    double       spectral_radius; ///< of implicit motion
-    double       field_interval;  ///< time between field files
-    unsigned int maximum_relaxation_steps;
+    TimeScheme                     scheme;
+    double                         time_step;       ///< 0: automatic
+    double                         safety_factor;   ///< of the stable time step
+    double                         spectral_radius; ///< of implicit motion
+    double                         field_interval; ///< time between field files
+    unsigned int                   maximum_relaxation_steps;
     Fem::ComponentExpressions<dim> initial_displacement, initial_velocity;
 
     bool

@@ -40,7 +40,7 @@ namespace Perimorph::Coupling
   {
     const Damage::BreakingRule &rule;
     bool                        sees_particles;
-    const StrengthTable        *strengths; ///< null: the rule has none
+    const StrengthTable        *strengths;    ///< null: the rule has none
     const std::vector<bool>    &is_protected; ///< nodes
     const Bonds::BrokenBonds   &broken;
     const std::vector<double>  &mass; ///< of nodes

@@ -30,23 +30,28 @@ namespace Perimorph::Coupling
           std::make_unique<Materials::LinearElastic<2>>(1., 0.25, state));
         materials.bond_constants.push_back({1., state});
         Mesh::RegionParameters around;
-        around.features      = {{Parameters::FeatureKind::box,
-                                 "",
-                                 {0.2, 0.35, 0.8, 0.65}}};
-        around.core_size     = {0.2, false, false};
-        around.may_fill_body = true;
-        region               = make_region_map(mesh, around);
-        parameters.model           = model;
-        parameters.support         = GradientSupport::horizon;
-        parameters.bonds_may_break = true;
+        around.features = {
+          {Parameters::FeatureKind::box, "", {0.2, 0.35, 0.8, 0.65}}};
+        around.core_size             = {0.2, false, false};
+        around.may_fill_body         = true;
+        region                       = make_region_map(mesh, around);
+        parameters.model             = model;
+        parameters.support           = GradientSupport::horizon;
+        parameters.bonds_may_break   = true;
         parameters.holds_loose_parts = false;
       }
 
       CoupledProblem<2>
       problem(const Bonds::BrokenBonds &broken) const
       {
-        return CoupledProblem<2>(
-          mesh, region, materials, parameters, {}, {}, {}, broken);
+        return CoupledProblem<2>(mesh,
+                                 region,
+                                 materials,
+                                 parameters,
+                                 {},
+                                 {},
+                                 {},
+                                 broken);
       }
 
       /// Opens the middle.
@@ -66,16 +71,18 @@ namespace Perimorph::Coupling
     void
     expect_as_built_anew(const Model model)
     {
-      const Setup            setup(model);
-      Bonds::BrokenBonds     broken(1);
-      auto                   problem = setup.problem(broken);
-      const auto            &nodal   = setup.mesh.nodal();
-      std::vector<bool>      is_protected(nodal.n_nodes(), false);
-      const auto             mass = Fem::lumped_mass<2>(nodal, {1.});
-      Damage::Limits         limits;
-      limits.stretch  = 0.3;
-      const auto rule = Damage::make_saw_tooth_rule<2>(
-        limits, 1, Materials::PlaneState::plane_strain);
+      const Setup        setup(model);
+      Bonds::BrokenBonds broken(1);
+      auto               problem = setup.problem(broken);
+      const auto        &nodal   = setup.mesh.nodal();
+      std::vector<bool>  is_protected(nodal.n_nodes(), false);
+      const auto         mass = Fem::lumped_mass<2>(nodal, {1.});
+      Damage::Limits     limits;
+      limits.stretch = 0.3;
+      const auto rule =
+        Damage::make_saw_tooth_rule<2>(limits,
+                                       1,
+                                       Materials::PlaneState::plane_strain);
       const MotionDamage damage{*rule,
                                 false,
                                 nullptr,
@@ -84,18 +91,21 @@ namespace Perimorph::Coupling
                                 mass,
                                 std::numeric_limits<double>::infinity()};
       const auto         bonds =
-        model == Model::bond_based ?
-          make_moving_pairs<2>(
-            setup.mesh, setup.region, setup.materials, damage, problem) :
-          make_moving_families<2>(setup.mesh,
-                                  setup.region,
-                                  setup.materials,
-                                  family_parameters<2>(setup.parameters,
-                                                       nodal,
-                                                       setup.region,
-                                                       setup.materials.laws),
-                                  damage,
-                                  problem);
+        model == Model::bond_based
+                  ? make_moving_pairs<2>(setup.mesh,
+                                 setup.region,
+                                 setup.materials,
+                                 damage,
+                                 problem)
+                  : make_moving_families<2>(setup.mesh,
+                                    setup.region,
+                                    setup.materials,
+                                    family_parameters<2>(setup.parameters,
+                                                         nodal,
+                                                         setup.region,
+                                                         setup.materials.laws),
+                                    damage,
+                                    problem);
       // In two events, so that families lose bonds twice.
       for (const double amplitude : {0.7, 1.})
         {
@@ -115,8 +125,8 @@ namespace Perimorph::Coupling
           bonds->take_away(found.nodes);
           EXPECT_TRUE(bonds->overloaded(displacement).nodes.empty());
         }
-      const auto  other = setup.problem(broken);
-      Fem::Vector u[2], f[2];
+      const auto               other = setup.problem(broken);
+      Fem::Vector              u[2], f[2];
       const CoupledProblem<2> *problems[2] = {&problem, &other};
       for (int k = 0; k < 2; ++k)
         {
@@ -130,8 +140,8 @@ namespace Perimorph::Coupling
           u[k].update_ghost_values();
           problems[k]->internal_forces(u[k], f[k]);
         }
-      const auto one = Fem::to_nodal_values(f[0], problem.partition());
-      const auto two = Fem::to_nodal_values(f[1], other.partition());
+      const auto one     = Fem::to_nodal_values(f[0], problem.partition());
+      const auto two     = Fem::to_nodal_values(f[1], other.partition());
       double     largest = 0., difference = 0.;
       for (unsigned int n = 0; n < one.size(); ++n)
         {

@@ -24,17 +24,17 @@ namespace Perimorph::Solvers
     /// side and pulled on the other.
     struct Body
     {
-      Mesh::DistributedMesh<2>         mesh;
-      Coupling::BodyMaterials<2>       materials;
-      Coupling::CoupledProblem<2>      problem;
-      Fem::Supports<2>                 supports;
-      Fem::Loads<2>                    loads;
-      std::vector<double>              mass;
-      std::ostringstream               console;
-      Base::Log                        log;
-      Base::Timing                     timing;
-      Equilibrium<2>                   equilibrium;
-      NodalForces<2>                   forces;
+      Mesh::DistributedMesh<2>    mesh;
+      Coupling::BodyMaterials<2>  materials;
+      Coupling::CoupledProblem<2> problem;
+      Fem::Supports<2>            supports;
+      Fem::Loads<2>               loads;
+      std::vector<double>         mass;
+      std::ostringstream          console;
+      Base::Log                   log;
+      Base::Timing                timing;
+      Equilibrium<2>              equilibrium;
+      NodalForces<2>              forces;
 
       explicit Body(const std::string &traction = "t")
         : mesh(Testing::as_gmsh_mesh(Testing::unit_mesh<2>(8, 0.2)),
@@ -99,7 +99,7 @@ namespace Perimorph::Solvers
         const auto &partition = problem.partition();
         for (unsigned int n = 0; n < partition.n_owned(); ++n)
           {
-            const auto &x                         = partition.position(n);
+            const auto &x                           = partition.position(n);
             state.velocity.local_element(2 * n)     = std::sin(1.5 * x[0]);
             state.velocity.local_element(2 * n + 1) = x[0] * x[1];
           }
@@ -120,24 +120,26 @@ namespace Perimorph::Solvers
     Vector
     run(const bool by_newton, const unsigned int n_steps, double &drift)
     {
-      Body         body("0");
-      auto         state = body.pushed();
+      Body              body("0");
+      auto              state = body.pushed();
       ExplicitMotion<2> by_nodes(body.forces, body.mass);
       by_nodes.start(state);
       std::unique_ptr<ImplicitMotion<2>> implicit;
       if (by_newton)
-        implicit = std::make_unique<ImplicitMotion<2>>(
-          body.problem, body.equilibrium, body.forces, body.mass, 1.);
+        implicit = std::make_unique<ImplicitMotion<2>>(body.problem,
+                                                       body.equilibrium,
+                                                       body.forces,
+                                                       body.mass,
+                                                       1.);
       const double start = body.energy(state);
       drift              = 0.;
       for (unsigned int step = 0; step < n_steps; ++step)
         {
           if (by_newton)
-            EXPECT_TRUE(implicit
-                          ->step(1. / n_steps,
-                                 state,
-                                 [](const NewtonIteration &) {})
-                          .converged);
+            EXPECT_TRUE(
+              implicit
+                ->step(1. / n_steps, state, [](const NewtonIteration &) {})
+                .converged);
           else
             by_nodes.step(1. / n_steps, state);
           drift = std::max(drift, std::abs(body.energy(state) / start - 1.));
@@ -210,12 +212,15 @@ namespace Perimorph::Solvers
         ExplicitMotion<2> by_nodes(body.forces, body.mass);
         auto              state = body.at_rest();
         by_nodes.start(state);
-        ImplicitMotion<2> implicit(
-          body.problem, body.equilibrium, body.forces, body.mass, 1.);
+        ImplicitMotion<2> implicit(body.problem,
+                                   body.equilibrium,
+                                   body.forces,
+                                   body.mass,
+                                   1.);
         if (!by_newton)
           {
             // Without the inertia that belongs to implicit steps.
-            Body alone("0.1*sin(4*t)");
+            Body              alone("0.1*sin(4*t)");
             ExplicitMotion<2> motion(alone.forces, alone.mass);
             state = alone.at_rest();
             motion.start(state);
