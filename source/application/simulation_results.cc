@@ -287,19 +287,26 @@ namespace Perimorph::Application
       log << "  Newton iteration " << iteration.iteration
           << ": relative residual " << iteration.relative_residual << std::endl;
     };
+    State<dim> companion;
     try
       {
-        follow_loads(
-          method,
-          [&](const Step &) { remove_mean_rigid_motion(method); },
-          on_newton);
+        if (parameters.time_integration.has_inertia())
+          follow_motion(method, [&](const Instant &instant) {
+            companion = instant.state;
+          });
+        else
+          follow_loads(
+            method,
+            [&](const Step &) { remove_mean_rigid_motion(method); },
+            on_newton);
       }
     catch (const Base::SolveError &error)
       {
         throw Base::SolveError("the companion run with finite elements: " +
                                std::string(error.what()));
       }
-    const auto companion = gather(method);
+    if (companion.displacement.empty())
+      companion = gather(method);
     for (const auto &quantity : quantities(method, companion))
       if (quantity.exists)
         result->set_companion_quantity(quantity.name,
