@@ -32,7 +32,7 @@ namespace Perimorph::Application
     const bool is_explicit = parameters.scheme == TimeScheme::explicit_motion;
     if (is_fresh)
       by_nodes.start(motion);
-    else if (is_explicit)
+    else
       forces.evaluate(motion.time, motion.displacement);
     // From here on the problem has inertia, which steps by nodes must not see.
     if (!is_explicit)

@@ -187,10 +187,8 @@ namespace Perimorph::Application
     if (is_explicit && time.time_step > stable_time_step)
       {
         std::ostringstream text;
-        text << "bonds that broke have lowered the limit of stable time steps "
-                "to "
-             << stable_time_step << ": 'Time integration / time step' is "
-             << time.time_step;
+        text << "the limit of stable time steps is " << stable_time_step
+             << " now; 'Time integration / time step' is " << time.time_step;
         throw Base::SolveError(text.str());
       }
     return time.time_step > 0. ? time.time_step
