@@ -21,6 +21,7 @@ namespace Perimorph::Application
     read_mesh();
     prepare_body();
     report_refinement();
+    warn_of_varying_axes();
     warn_if_nothing_happens();
     if (parameters.growth.bonds)
       {
@@ -229,10 +230,16 @@ namespace Perimorph::Application
   void
   Simulation<dim>::assign_materials()
   {
-    materials          = make_body_materials<dim>(*mesh,
+    materials = make_body_materials<dim>(*mesh,
                                          parameters.material,
                                          parameters.volume_materials,
                                          parameters.state);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::warn_of_varying_axes() const
+  {
     const auto &nodal  = mesh->nodal();
     const auto  varies = [&](const unsigned int n) {
       if (region.alpha[n] == 0.)

@@ -135,6 +135,8 @@ namespace Perimorph::Application
     void
     assign_materials();
     void
+    warn_of_varying_axes() const;
+    void
     place_region();
     /// Makes the cracks and places peridynamics around them.
     void
