@@ -26,7 +26,8 @@ ADVANCES = "Cracks/maximum advances=4"
 LOAD_STEPS = ["Cracks/growth control=load steps", "Load steps/end time=1.3"]
 BONDS = ["Cracks/growth=bonds"]
 # Neither at the end of a period nor on the axis, where all is round-off.
-BAR = ["Load steps/end time=60e-6", "Quantities/point=middle: 0.1 0.001"]
+BAR = ["Load steps/end time=60e-6", "Quantities/point=middle: 0.1 0.001",
+       "Reference/values="]
 COMPOSITE = "Mesh/geometry parameters=L = 0.1, d = 0.1, nx = 40, ny = 40"
 GLASS = "Mesh/geometry parameters=L = 0.1, d = 0.04, h = 0.002"
 HAND_OVER = ["Cracks/hand over length=1 horizons",

@@ -99,7 +99,8 @@ def alternating_part(study, changes):
                        for k in range(N_NEIGHBOURS))
     solution = study.solve(
         "bar_wave.prm", dict(changes, **BAR_TIMES,
-                             **{"Quantities/point": points}))
+                             **{"Quantities/point": points,
+                                "Reference/values": ""}))
     table = solution.table("quantities")
     if not table:
         return math.nan
