@@ -1,6 +1,5 @@
 #include <perimorph/application/post_processing.h>
 #include <perimorph/fem/body_force.h>
-#include <perimorph/fem/lumped_mass.h>
 
 #include <algorithm>
 #include <cmath>
@@ -158,11 +157,12 @@ namespace Perimorph::Application
     if (!state.acceleration.empty())
       {
         divergence.resize(mesh.nodal().n_nodes());
-        const auto mass =
-          Fem::lumped_mass<dim>(mesh.nodal(), materials.density);
+        const auto &nodal = mesh.nodal();
         for (unsigned int n = 0; n < divergence.size(); ++n)
           divergence[n] +=
-            mass[n] / mesh.nodal().volume[n] * state.acceleration[n];
+            materials.density[nodal.cell_material[nodal.node_cells.row(n)[0]]] *
+            state.acceleration[n];
+        Mesh::set_hanging_values(nodal.hanging, divergence);
       }
     return {
       {mesh.nodal(), materials.laws, state.displacement, std::move(divergence)},

@@ -100,7 +100,7 @@ namespace Perimorph::Application
     std::vector<std::array<unsigned int, 2>> pairs;
     for (const auto &bond : energies)
       pairs.push_back(bond.nodes);
-    const auto in_core = Coupling::nodes_in_core(alpha, pairs);
+    const auto in_core = Coupling::nodes_in_core(alpha, pairs, communicator);
 
     Coupling::ParticleStates particles;
     if (Damage::sees_particles(parameters.growth.criterion))
@@ -179,12 +179,7 @@ namespace Perimorph::Application
         auto wider          = parameters.region;
         wider.may_fill_body = true;
         const auto add      = [&](const std::array<unsigned int, 2> &nodes) {
-          Parameters::Feature feature;
-          feature.kind = Parameters::FeatureKind::segment;
-          for (const unsigned int n : nodes)
-            for (int d = 0; d < dim; ++d)
-              feature.numbers.push_back(mesh->nodal().nodes[n][d]);
-          wider.features.push_back(feature);
+          wider.features.push_back(feature_of(nodes));
         };
         std::set<unsigned int> ends;
         for (const auto &bond : first)

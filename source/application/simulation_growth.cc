@@ -62,19 +62,42 @@ namespace Perimorph::Application
   }
 
   template <int dim>
-  double
-  Simulation<dim>::grow_core(Method                       &method,
-                             const Mesh::RegionParameters &wider)
+  std::optional<Mesh::RegionMap>
+  Simulation<dim>::grown_region(const Method                 &method,
+                                const Mesh::RegionParameters &wider) const
   {
     auto next  = make_region_map(*mesh, wider);
     auto alpha = next.alpha;
     for (unsigned int n = 0; n < alpha.size(); ++n)
       alpha[n] = std::max(alpha[n], method.region.alpha[n]);
     if (alpha == method.region.alpha)
-      return 0.;
+      return std::nullopt;
     next.set_alpha(alpha);
+    return next;
+  }
+
+  template <int dim>
+  Parameters::Feature
+  Simulation<dim>::feature_of(const std::array<unsigned int, 2> &bond) const
+  {
+    Parameters::Feature feature;
+    feature.kind = Parameters::FeatureKind::segment;
+    for (const unsigned int n : bond)
+      for (int d = 0; d < dim; ++d)
+        feature.numbers.push_back(mesh->nodal().nodes[n][d]);
+    return feature;
+  }
+
+  template <int dim>
+  double
+  Simulation<dim>::grow_core(Method                       &method,
+                             const Mesh::RegionParameters &wider)
+  {
+    const auto next = grown_region(method, wider);
+    if (!next)
+      return 0.;
     const double before   = potential_energy(method);
-    method                = solve_with(cracks, next, method);
+    method                = solve_with(cracks, *next, method);
     const double switched = potential_energy(method) - before;
     switched_energy += switched;
     count_work(gather(method));
@@ -370,42 +393,47 @@ namespace Perimorph::Application
     return false;
   }
 
-#define PERIMORPH_INSTANTIATE(dim)                                            \
-  template double Simulation<dim>::potential_energy(const Method &) const;    \
-  template Simulation<dim>::Method Simulation<dim>::solve_with(               \
-    const Bonds::CrackSet<dim> &,                                             \
-    const Mesh::RegionMap &,                                                  \
-    const Method &);                                                          \
-  template void   Simulation<dim>::rise_to(double,                            \
-                                         Method &,                          \
-                                         Step &,                            \
-                                         const OnNewton &);                 \
-  template void   Simulation<dim>::find_load(Advance &,                       \
-                                           Method &,                        \
-                                           Step &,                          \
-                                           const OnNewton &);               \
-  template void   Simulation<dim>::continue_from(const Method &, Method &);   \
-  template double Simulation<dim>::grow_core(Method &,                        \
+#define PERIMORPH_INSTANTIATE(dim)                                                  \
+  template double Simulation<dim>::potential_energy(const Method &) const;          \
+  template Simulation<dim>::Method Simulation<dim>::solve_with(                     \
+    const Bonds::CrackSet<dim> &,                                                   \
+    const Mesh::RegionMap &,                                                        \
+    const Method &);                                                                \
+  template void Simulation<dim>::rise_to(double,                                    \
+                                         Method &,                                  \
+                                         Step &,                                    \
+                                         const OnNewton &);                         \
+  template void Simulation<dim>::find_load(Advance &,                               \
+                                           Method &,                                \
+                                           Step &,                                  \
+                                           const OnNewton &);                       \
+  template void Simulation<dim>::continue_from(const Method &, Method &);           \
+  template std::optional<Mesh::RegionMap> Simulation<dim>::grown_region(            \
+    const Method &,                                                                 \
+    const Mesh::RegionParameters &) const;                                          \
+  template Parameters::Feature Simulation<dim>::feature_of(                         \
+    const std::array<unsigned int, 2> &) const;                                     \
+  template double       Simulation<dim>::grow_core(Method &,                        \
                                              const Mesh::RegionParameters &); \
-  template void   Simulation<dim>::scale_to(double,                           \
+  template void         Simulation<dim>::scale_to(double,                           \
                                           Method &,                         \
                                           Step &,                           \
                                           const OnNewton &);                \
-  template unsigned int Simulation<dim>::n_large_parts() const;               \
-  template void         Simulation<dim>::end_growth(const std::string &,      \
-                                            const std::string &);     \
-  template void         Simulation<dim>::accept(Advance &, Method &, Step &); \
-  template bool         Simulation<dim>::grow_cracks(Method &,                \
-                                             Step &,                  \
-                                             const OnStep &);         \
-  template bool         Simulation<dim>::grow_at_fixed_loads(Method &,        \
-                                                     Step &,          \
-                                                     const OnStep &); \
-  template void         Simulation<dim>::start_events(Method &,               \
-                                              Step &,                 \
-                                              const OnNewton &);      \
-  template bool         Simulation<dim>::follow_growth_events(Method &,       \
-                                                      const OnStep &, \
+  template unsigned int Simulation<dim>::n_large_parts() const;                     \
+  template void         Simulation<dim>::end_growth(const std::string &,            \
+                                            const std::string &);           \
+  template void         Simulation<dim>::accept(Advance &, Method &, Step &);       \
+  template bool         Simulation<dim>::grow_cracks(Method &,                      \
+                                             Step &,                        \
+                                             const OnStep &);               \
+  template bool         Simulation<dim>::grow_at_fixed_loads(Method &,              \
+                                                     Step &,                \
+                                                     const OnStep &);       \
+  template void         Simulation<dim>::start_events(Method &,                     \
+                                              Step &,                       \
+                                              const OnNewton &);            \
+  template bool         Simulation<dim>::follow_growth_events(Method &,             \
+                                                      const OnStep &,       \
                                                       const OnNewton &);
 
   PERIMORPH_INSTANTIATE(2)

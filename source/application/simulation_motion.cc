@@ -291,12 +291,10 @@ namespace Perimorph::Application
           {
             const double end = times[number - 1];
             Instant      instant{number};
-            for (unsigned int n = steps_that_fill(end - motion.time, longest);
-                 n > 0;
-                 n = motion.time < end
-                       ? steps_that_fill(end - motion.time, longest)
-                       : 0)
+            while (motion.time < end)
               {
+                const unsigned int n =
+                  steps_that_fill(end - motion.time, longest);
                 integrator->step_to(
                   n == 1 ? end : motion.time + (end - motion.time) / n,
                   motion,
@@ -345,22 +343,21 @@ namespace Perimorph::Application
   void
   Simulation<dim>::integrate_in_time(Method &method)
   {
-    const auto        &time           = parameters.time_integration;
-    auto              &step_table     = open_table("time_steps.csv",
+    const auto &time       = parameters.time_integration;
+    auto       &step_table = open_table("time_steps.csv",
                                   {"step",
-                                                    "time",
-                                                    "time_steps",
-                                                    "newton_iterations",
-                                                    "linear_iterations",
-                                                    "strain_energy",
-                                                    "kinetic_energy",
-                                                    "external_work",
-                                                    "dissipated_energy",
-                                                    "energy_balance",
-                                                    "largest_displacement"});
-    Output::CsvWriter *quantity_table = nullptr;
-    double             field_time     = progress.step.time;
-    bool               evaluated      = false;
+                                         "time",
+                                         "time_steps",
+                                         "newton_iterations",
+                                         "linear_iterations",
+                                         "strain_energy",
+                                         "kinetic_energy",
+                                         "external_work",
+                                         "dissipated_energy",
+                                         "energy_balance",
+                                         "largest_displacement"});
+    double      field_time = progress.step.time;
+    bool        evaluated  = false;
     follow_motion(method, [&](const Instant &instant) {
       const auto &state = instant.state;
       result->add_count("newton_iterations", instant.newton_iterations);
@@ -379,22 +376,7 @@ namespace Perimorph::Application
                             dissipated_energy,
                             instant.energy_balance,
                             largest});
-      const auto values = [&]() {
-        const auto timer = timing.scope("recovery");
-        return quantities(method, state);
-      }();
-      if (!quantity_table)
-        {
-          std::vector<std::string> columns = {"step", "time"};
-          for (const auto &quantity : values)
-            columns.push_back(quantity.name);
-          quantity_table = &open_table("quantities.csv", columns);
-        }
-      std::vector<Output::CsvCell> row = {instant.number, state.time};
-      for (const auto &quantity : values)
-        row.push_back(quantity.exists ? Output::CsvCell(quantity.value)
-                                      : Output::CsvCell(""));
-      quantity_table->write_row(row);
+      write_quantities(instant.number, method, state);
       progress.number = instant.number;
       progress.step   = {instant.number, state.time};
       result->set("counts", "time_steps", n_time_steps);

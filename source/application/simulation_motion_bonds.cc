@@ -138,23 +138,12 @@ namespace Perimorph::Application
     wider.may_fill_body = true;
     wider.core_size.value *= margin;
     for (const auto &bond : bonds)
-      {
-        Parameters::Feature feature;
-        feature.kind = Parameters::FeatureKind::segment;
-        for (const unsigned int n : bond)
-          for (int d = 0; d < dim; ++d)
-            feature.numbers.push_back(mesh->nodal().nodes[n][d]);
-        wider.features.push_back(feature);
-      }
-    auto next  = make_region_map(*mesh, wider);
-    auto alpha = next.alpha;
-    for (unsigned int n = 0; n < alpha.size(); ++n)
-      alpha[n] = std::max(alpha[n], method.region.alpha[n]);
-    if (alpha == method.region.alpha)
+      wider.features.push_back(feature_of(bond));
+    const auto next = grown_region(method, wider);
+    if (!next)
       throw Base::SolveError(
         "bonds would break where elements carry a part, and the core cannot "
         "grow there: use a larger 'Peridynamics / core size'");
-    next.set_alpha(alpha);
 
     auto       &motion    = method.motion;
     const auto &partition = method.problem->partition();
@@ -163,7 +152,7 @@ namespace Perimorph::Application
     const auto velocity = Fem::to_nodal_values(motion.velocity, partition);
     const auto acceleration =
       Fem::to_nodal_values(motion.acceleration, partition);
-    Method grown      = make_method(next, cracks);
+    Method grown      = make_method(*next, cracks);
     grown.time        = method.time;
     grown.motion.time = motion.time;
     grown.motion.work = motion.work;

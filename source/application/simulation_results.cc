@@ -258,6 +258,28 @@ namespace Perimorph::Application
 
   template <int dim>
   void
+  Simulation<dim>::write_quantities(const unsigned int step,
+                                    const Method      &method,
+                                    const State<dim>  &state)
+  {
+    const auto timer  = timing.scope("recovery");
+    const auto values = quantities(method, state);
+    if (!quantity_table)
+      {
+        std::vector<std::string> columns = {"step", "time"};
+        for (const auto &quantity : values)
+          columns.push_back(quantity.name);
+        quantity_table = &open_table("quantities.csv", columns);
+      }
+    std::vector<Output::CsvCell> row = {step, state.time};
+    for (const auto &quantity : values)
+      row.push_back(quantity.exists ? Output::CsvCell(quantity.value)
+                                    : Output::CsvCell(""));
+    quantity_table->write_row(row);
+  }
+
+  template <int dim>
+  void
   Simulation<dim>::evaluate(const Method &method, const State<dim> &state)
   {
     const auto timer = timing.scope("recovery");

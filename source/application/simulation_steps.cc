@@ -235,29 +235,28 @@ namespace Perimorph::Application
   bool
   Simulation<dim>::solve_load_steps(Method &method)
   {
-    auto              &newton_table   = open_table("newton.csv",
+    auto &newton_table = open_table("newton.csv",
                                     {"step",
-                                                    "time",
-                                                    "iteration",
-                                                    "residual",
-                                                    "relative_residual",
-                                                    "step_length",
-                                                    "linear_iterations"});
-    auto              &step_table     = open_table("load_steps.csv",
+                                     "time",
+                                     "iteration",
+                                     "residual",
+                                     "relative_residual",
+                                     "step_length",
+                                     "linear_iterations"});
+    auto &step_table   = open_table("load_steps.csv",
                                   {"step",
-                                                    "time",
-                                                    "increments",
-                                                    "newton_iterations",
-                                                    "linear_iterations",
-                                                    "relative_residual",
-                                                    "strain_energy",
-                                                    "external_work",
-                                                    "released_energy",
-                                                    "dissipated_energy",
-                                                    "crack_growth",
-                                                    "largest_displacement",
-                                                    "imbalance"});
-    Output::CsvWriter *quantity_table = nullptr;
+                                     "time",
+                                     "increments",
+                                     "newton_iterations",
+                                     "linear_iterations",
+                                     "relative_residual",
+                                     "strain_energy",
+                                     "external_work",
+                                     "released_energy",
+                                     "dissipated_energy",
+                                     "crack_growth",
+                                     "largest_displacement",
+                                     "imbalance"});
     if (progress.number == 0)
       {
         last_state = gather(method);
@@ -328,22 +327,7 @@ namespace Perimorph::Application
       warn_of_point_supports(state, largest_force);
       if (parameters.n_steps > 1 || parameters.arc_length ||
           parameters.growth.active)
-        {
-          const auto timer  = timing.scope("recovery");
-          const auto values = quantities(method, state);
-          if (!quantity_table)
-            {
-              std::vector<std::string> columns = {"step", "time"};
-              for (const auto &quantity : values)
-                columns.push_back(quantity.name);
-              quantity_table = &open_table("quantities.csv", columns);
-            }
-          std::vector<Output::CsvCell> row = {step.number, step.time};
-          for (const auto &quantity : values)
-            row.push_back(quantity.exists ? Output::CsvCell(quantity.value)
-                                          : Output::CsvCell(""));
-          quantity_table->write_row(row);
-        }
+        write_quantities(step.number, method, state);
       // Several states of growth may have one load.
       if (parameters.write_fields)
         write_fields(method,

@@ -1,5 +1,7 @@
 #include <perimorph/coupling/bond_states.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 
 namespace Perimorph::Coupling
@@ -57,13 +59,17 @@ namespace Perimorph::Coupling
 
   std::vector<bool>
   nodes_in_core(const std::vector<double>                      &alpha,
-                const std::vector<std::array<unsigned int, 2>> &pairs)
+                const std::vector<std::array<unsigned int, 2>> &pairs,
+                const MPI_Comm                                  communicator)
   {
-    std::vector<bool> in_core(alpha.size(), true);
+    std::vector<unsigned int> here(alpha.size(), 1u);
     for (const auto &[first, second] : pairs)
       if (alpha[first] < 1. || alpha[second] < 1.)
-        in_core[first] = in_core[second] = false;
-    return in_core;
+        here[first] = here[second] = 0u;
+    // Families of other ranks know more.
+    auto everywhere = here;
+    dealii::Utilities::MPI::min(here, communicator, everywhere);
+    return std::vector<bool>(everywhere.begin(), everywhere.end());
   }
 
 #define PERIMORPH_INSTANTIATE(dim)                                 \

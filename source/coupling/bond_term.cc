@@ -1,3 +1,4 @@
+#include <perimorph/base/keep_where.h>
 #include <perimorph/coupling/bond_term.h>
 #include <perimorph/peridynamics/bond_based.h>
 
@@ -249,17 +250,12 @@ namespace Perimorph::Coupling
   void
   SegmentTerm<dim>::remove(const std::vector<bool> &goes)
   {
-    std::size_t n_left = 0;
-    for (std::size_t k = 0; k < cells.size(); ++k)
-      if (!goes[cells[k]])
-        {
-          cells[n_left]     = cells[k];
-          nodes[n_left]     = nodes[k];
-          tensors[n_left++] = tensors[k];
-        }
-    cells.resize(n_left);
-    nodes.resize(n_left);
-    tensors.resize(n_left);
+    const auto stays = [&, all = cells](const std::size_t k) {
+      return !goes[all[k]];
+    };
+    Base::keep_where(cells, stays);
+    Base::keep_where(nodes, stays);
+    Base::keep_where(tensors, stays);
   }
 
   template <int dim>

@@ -1,3 +1,4 @@
+#include <perimorph/base/keep_where.h>
 #include <perimorph/coupling/broken_bond_set.h>
 
 #include <algorithm>
@@ -6,22 +7,6 @@ namespace Perimorph::Coupling
 {
   namespace
   {
-    /// Keeps the entries of a list whose index passes.
-    template <typename T, typename Keeps>
-    void
-    keep_where(std::vector<T> &list, const Keeps &keeps)
-    {
-      std::size_t n_kept = 0;
-      for (std::size_t k = 0; k < list.size(); ++k)
-        if (keeps(k))
-          {
-            if (n_kept != k)
-              list[n_kept] = std::move(list[k]);
-            ++n_kept;
-          }
-      list.resize(n_kept);
-    }
-
     bool
     has_broken(const Bonds::BrokenBonds        &broken,
                const std::vector<unsigned int> &nodes)
@@ -52,8 +37,8 @@ namespace Perimorph::Coupling
     const auto remains = [left = bonds.stiffness](const std::size_t b) {
       return left[b] != 0.;
     };
-    keep_where(bonds.nodes, remains);
-    keep_where(bonds.stiffness, remains);
+    Base::keep_where(bonds.nodes, remains);
+    Base::keep_where(bonds.stiffness, remains);
 
     coupling.replaced.resize(mesh.n_cells(), false);
     std::vector<bool> goes(mesh.n_cells(), false);
@@ -66,14 +51,14 @@ namespace Perimorph::Coupling
     const auto stays = [&goes, cells = coupling.cells](const std::size_t k) {
       return !goes[cells[k]];
     };
-    keep_where(coupling.cells, stays);
-    keep_where(coupling.tensors, stays);
+    Base::keep_where(coupling.cells, stays);
+    Base::keep_where(coupling.tensors, stays);
     const auto part_stays =
       [&goes, &broken, parts = coupling.parts](const std::size_t p) {
         return !goes[parts[p].cell] && !has_broken(broken, parts[p].nodes);
       };
-    keep_where(coupling.parts, part_stays);
-    keep_where(coupling.part_tensors, part_stays);
+    Base::keep_where(coupling.parts, part_stays);
+    Base::keep_where(coupling.part_tensors, part_stays);
     coupling.springs.erase(
       std::remove_if(coupling.springs.begin(),
                      coupling.springs.end(),

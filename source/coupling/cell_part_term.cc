@@ -1,3 +1,4 @@
+#include <perimorph/base/keep_where.h>
 #include <perimorph/coupling/cell_part_term.h>
 
 #include <utility>
@@ -23,19 +24,12 @@ namespace Perimorph::Coupling
     const std::function<bool(unsigned int, const std::vector<unsigned int> &)>
       &goes)
   {
-    std::size_t n_left = 0;
-    for (std::size_t p = 0; p < parts.size(); ++p)
-      if (!goes(parts[p].cell, parts[p].nodes))
-        {
-          if (n_left != p)
-            {
-              parts[n_left]   = std::move(parts[p]);
-              tensors[n_left] = tensors[p];
-            }
-          ++n_left;
-        }
-    parts.resize(n_left);
-    tensors.resize(n_left);
+    std::vector<bool> stays;
+    for (const auto &part : parts)
+      stays.push_back(!goes(part.cell, part.nodes));
+    const auto keeps = [&](const std::size_t p) { return stays[p]; };
+    Base::keep_where(parts, keeps);
+    Base::keep_where(tensors, keeps);
   }
 
   template <int dim>

@@ -140,10 +140,8 @@ namespace Perimorph::Coupling
   Peridynamics::FamilySet<dim>
   CoupledProblem<dim>::correspondence_families() const
   {
-    for (const auto &term : contributions)
-      if (const auto families =
-            dynamic_cast<const CorrespondenceTerm<dim> *>(term.get()))
-        return families->global_families(partition());
+    if (const auto *families = find_term<CorrespondenceTerm<dim>>())
+      return families->global_families(partition());
     return {};
   }
 
@@ -166,13 +164,11 @@ namespace Perimorph::Coupling
   CoupledProblem<dim>::virial_stress(const Vector          &displacement,
                                      const Mesh::RegionMap &region) const
   {
-    for (const auto &term : contributions)
-      if (const auto bonds = dynamic_cast<const BondForces<dim> *>(term.get()))
-        return nodal_virial_stress(
-          mesh.nodal(),
-          region,
-          bonds->pair_forces(displacement, partition()),
-          mesh.communicator());
+    if (const auto *bonds = find_term<BondForces<dim>>())
+      return nodal_virial_stress(mesh.nodal(),
+                                 region,
+                                 bonds->pair_forces(displacement, partition()),
+                                 mesh.communicator());
     return {};
   }
 

@@ -41,12 +41,7 @@ namespace Perimorph::Coupling
           for (std::size_t b = current.offsets[p]; b < current.offsets[p + 1];
                ++b)
             pairs.push_back({{current.node[p], current.neighbor[b]}});
-        in_core = nodes_in_core(region.alpha, pairs);
-        // Families of other ranks know more.
-        std::vector<unsigned int> here(in_core.begin(), in_core.end()),
-          everywhere = here;
-        dealii::Utilities::MPI::min(here, mesh.communicator(), everywhere);
-        in_core.assign(everywhere.begin(), everywhere.end());
+        in_core = nodes_in_core(region.alpha, pairs, mesh.communicator());
         for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
           for (const unsigned int c : nodal.node_cells.row(n))
             is_mixed[n] =
@@ -120,16 +115,9 @@ namespace Perimorph::Coupling
                   found.push_back({{first, second}});
               }
           }
-        if (dealii::Utilities::MPI::n_mpi_processes(mesh.communicator()) > 1)
-          found = Base::gather_on_all(mesh.communicator(), found);
-        std::sort(found.begin(), found.end());
-        found.erase(std::unique(found.begin(), found.end()), found.end());
-        OverloadedBonds result;
-        for (const auto &bond : found)
-          if (!in_core[bond[0]] || !in_core[bond[1]])
-            result.outside_core.push_back(bond);
-        result.nodes = std::move(found);
-        return result;
+        return gather_overloaded(std::move(found),
+                                 in_core,
+                                 mesh.communicator());
       }
 
       void
@@ -245,6 +233,23 @@ namespace Perimorph::Coupling
       std::vector<std::vector<std::size_t>> rows, intact_rows;
     };
   } // namespace
+
+  OverloadedBonds
+  gather_overloaded(std::vector<std::array<unsigned int, 2>> found,
+                    const std::vector<bool>                 &in_core,
+                    const MPI_Comm                           communicator)
+  {
+    if (dealii::Utilities::MPI::n_mpi_processes(communicator) > 1)
+      found = Base::gather_on_all(communicator, found);
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    OverloadedBonds result;
+    for (const auto &bond : found)
+      if (!in_core[bond[0]] || !in_core[bond[1]])
+        result.outside_core.push_back(bond);
+    result.nodes = std::move(found);
+    return result;
+  }
 
   template <int dim>
   std::unique_ptr<MovingBonds<dim>>

@@ -1,9 +1,6 @@
-#include <perimorph/base/gather.h>
 #include <perimorph/coupling/bond_term.h>
 #include <perimorph/coupling/cell_part_term.h>
 #include <perimorph/coupling/moving_bonds.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <limits>
@@ -34,11 +31,7 @@ namespace Perimorph::Coupling
         , share(pairs.size())
         , critical(pairs.size())
       {
-        in_core = nodes_in_core(region.alpha, pairs);
-        std::vector<unsigned int> here(in_core.begin(), in_core.end()),
-          everywhere = here;
-        dealii::Utilities::MPI::min(here, mesh.communicator(), everywhere);
-        in_core.assign(everywhere.begin(), everywhere.end());
+        in_core = nodes_in_core(region.alpha, pairs, mesh.communicator());
         for (std::size_t b = 0; b < pairs.size(); ++b)
           {
             share[b] = damage.broken.share_left(pairs[b][0], pairs[b][1]);
@@ -59,15 +52,9 @@ namespace Perimorph::Coupling
             if (xi * (displacement[j] - displacement[i]) >= critical[b])
               found.push_back({{std::min(i, j), std::max(i, j)}});
           }
-        if (dealii::Utilities::MPI::n_mpi_processes(mesh.communicator()) > 1)
-          found = Base::gather_on_all(mesh.communicator(), found);
-        std::sort(found.begin(), found.end());
-        OverloadedBonds result;
-        for (const auto &bond : found)
-          if (!in_core[bond[0]] || !in_core[bond[1]])
-            result.outside_core.push_back(bond);
-        result.nodes = std::move(found);
-        return result;
+        return gather_overloaded(std::move(found),
+                                 in_core,
+                                 mesh.communicator());
       }
 
       void

@@ -412,6 +412,13 @@ namespace Perimorph::Application
     /// @return  change of the potential energy, counted as switched_energy
     double
     grow_core(Method &method, const Mesh::RegionParameters &wider);
+    /// The region of a method with what is wider of others; none if nothing is.
+    std::optional<Mesh::RegionMap>
+    grown_region(const Method                 &method,
+                 const Mesh::RegionParameters &wider) const;
+    /// A bond as a place of the region.
+    Parameters::Feature
+    feature_of(const std::array<unsigned int, 2> &bond) const;
     /// Solves a linear problem at another time.
     void
     scale_to(double          time,
@@ -451,6 +458,11 @@ namespace Perimorph::Application
     evaluate(const Method &method, const State<dim> &state);
     std::vector<NamedQuantity>
     quantities(const Method &method, const State<dim> &state);
+    /// Adds a row to quantities.csv.
+    void
+    write_quantities(unsigned int      step,
+                     const Method     &method,
+                     const State<dim> &state);
     void
     compare_with_finite_elements(const State<dim> &state);
     void
@@ -543,6 +555,7 @@ namespace Perimorph::Application
     Progress progress;
     double   largest_force = 0.;
     std::map<std::string, std::unique_ptr<Output::CsvWriter>> tables;
+    Output::CsvWriter                *quantity_table = nullptr;
     Output::Checkpoint                checkpoint; ///< the next one
     std::optional<Output::Checkpoint> resumed;    ///< until it is restored
     std::map<std::string, std::uintmax_t>

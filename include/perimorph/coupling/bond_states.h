@@ -28,10 +28,11 @@ namespace Perimorph::Coupling
                 const dealii::Tensor<1, dim> &eta,
                 Damage::BondState            &bond);
 
-  /// Nodes whose whole families, of this rank, are peridynamic: nothing else
-  /// holds there what their bonds let go.
-  /// @param pairs  bonds: two nodes each
+  /// Nodes whose whole families are peridynamic: nothing else holds there what
+  /// their bonds let go. The same on all ranks.
+  /// @param pairs  bonds of this rank: two nodes each
   std::vector<bool>
   nodes_in_core(const std::vector<double>                      &alpha,
-                const std::vector<std::array<unsigned int, 2>> &pairs);
+                const std::vector<std::array<unsigned int, 2>> &pairs,
+                MPI_Comm                                        communicator);
 } // namespace Perimorph::Coupling

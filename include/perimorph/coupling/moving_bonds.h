@@ -16,6 +16,12 @@ namespace Perimorph::Coupling
     std::vector<std::array<unsigned int, 2>> outside_core;
   };
 
+  /// Of what the ranks found, each bond perhaps more than once.
+  OverloadedBonds
+  gather_overloaded(std::vector<std::array<unsigned int, 2>> found,
+                    const std::vector<bool>                 &in_core,
+                    MPI_Comm                                 communicator);
+
   /// Bonds of a body that moves, which break in place: only families that lose
   /// a bond are built anew.
   template <int dim>
