@@ -313,6 +313,28 @@ namespace Perimorph::Application
 
   template <int dim>
   void
+  store_points(const std::vector<dealii::Point<dim>> &points,
+               std::vector<double>                   &numbers)
+  {
+    numbers.clear();
+    for (const auto &point : points)
+      for (int d = 0; d < dim; ++d)
+        numbers.push_back(point[d]);
+  }
+
+  template <int dim>
+  std::vector<dealii::Point<dim>>
+  stored_points(const std::vector<double> &numbers)
+  {
+    std::vector<dealii::Point<dim>> points(numbers.size() / dim);
+    for (std::size_t k = 0; k < points.size(); ++k)
+      for (int d = 0; d < dim; ++d)
+        points[k][d] = numbers[dim * k + d];
+    return points;
+  }
+
+  template <int dim>
+  void
   store_broken_bonds(const Mesh::DistributedMesh<dim> &mesh,
                      const Bonds::BrokenBonds         &broken,
                      Output::Checkpoint               &checkpoint)
@@ -370,6 +392,10 @@ namespace Perimorph::Application
                                Output::Checkpoint &);                           \
   template std::vector<Bonds::CrackFacet<dim>> stored_advances(                 \
     const Output::Checkpoint &);                                                \
+  template void store_points(const std::vector<dealii::Point<dim>> &,           \
+                             std::vector<double> &);                            \
+  template std::vector<dealii::Point<dim>> stored_points<dim>(                  \
+    const std::vector<double> &);                                               \
   template void store_broken_bonds(const Mesh::DistributedMesh<dim> &,          \
                                    const Bonds::BrokenBonds &,                  \
                                    Output::Checkpoint &);                       \

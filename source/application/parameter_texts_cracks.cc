@@ -50,9 +50,9 @@ namespace Perimorph::Application
       "correspondence model load and path depend more on the mesh. bond "
       "strain, equivalent strain, volumetric strain, maximum principal stress: "
       "by strain or stress of the particles at its ends; find where damage "
-      "starts, but cracks become wide bands; so do tsai-hill and maximum "
-      "stress: by the stress along and across the fibres (axis 1) and "
-      "'strengths'. automatic: critical energy; "
+      "starts, but cracks become wide bands. tsai-hill, maximum stress: by "
+      "the stress along and across the fibres (axis 1) of both and "
+      "'strengths'; see 'strength failure'. automatic: critical energy; "
       "model = bond based: critical stretch.",
       choice(automatic_or(Damage::criterion_names())));
     prm.add_parameter(
@@ -142,6 +142,15 @@ namespace Perimorph::Application
       "'rest', what is in none): rest, inclusion: X = 1670, Y = 48, S = 56; "
       "... As strong as the material of the bond where nothing is given.",
       Anything());
+    prm.add_parameter(
+      "strength failure",
+      strength_failure,
+      "Of criterion = tsai-hill, maximum stress: what an overloaded bond "
+      "breaks. planes: a plane along the fibres (across them where the fibres "
+      "fail) opens through the bond, one horizon wide, and cuts all bonds that "
+      "cross it: cracks run along the fibres. bonds: the bond alone; damage "
+      "becomes wide bands that hardly follow the fibres.",
+      choice({"planes", "bonds"}));
     prm.add_parameter(
       "hand over length",
       hand_over_length,

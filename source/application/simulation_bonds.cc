@@ -62,7 +62,9 @@ namespace Perimorph::Application
       log.warning("bonds break along the rows of a regular mesh; use an "
                   "unstructured one where cracks are to find their way");
     if (Damage::sees_particles(parameters.growth.criterion) &&
-        parameters.growth.criterion != Damage::Criterion::bond_strain)
+        parameters.growth.criterion != Damage::Criterion::bond_strain &&
+        !(Damage::uses_strengths(parameters.growth.criterion) &&
+          parameters.growth.strengths.opens_planes))
       log.warning("the criterion sees means over families, which hardly feel a "
                   "cut: it finds where damage starts, but damage becomes a "
                   "band several horizons wide instead of a crack");
@@ -135,20 +137,23 @@ namespace Perimorph::Application
                                        xi,
                                        eta,
                                        one);
-        const double factor =
-          is_protected[i] || is_protected[j] ? never
-          : Damage::uses_strengths(parameters.growth.criterion)
+        const bool with_strengths =
+          Damage::uses_strengths(parameters.growth.criterion);
+        const Coupling::StrengthLoad load =
+          is_protected[i] || is_protected[j] ? Coupling::StrengthLoad{never, {}}
+          : with_strengths
             ? Coupling::load_factor_by_strength(bond.nodes,
                                                 particles,
                                                 materials,
                                                 parameters.growth.strengths,
                                                 *breaking_rule,
                                                 one)
-            : breaking_rule->load_factor(one);
+            : Coupling::StrengthLoad{breaking_rule->load_factor(one), {}};
         loads.push_back({bond.nodes,
-                         factor,
+                         load.load_factor,
                          bond.energy / (broken.n_teeth() - one.teeth_lost),
-                         in_core[i] && in_core[j]});
+                         in_core[i] && in_core[j],
+                         load.normal});
       }
     return loads;
   }
@@ -166,13 +171,28 @@ namespace Perimorph::Application
           lowest = std::min(lowest, bond.factor);
         if (!(lowest < never) || lowest > limit)
           return {};
-        bool in_core = true;
+        std::vector<Coupling::OverloadedBond> openers;
         for (const auto &bond : loads)
           if (bond.factor <= std::min(limit, (1. + tolerance) * lowest))
             {
-              first.push_back(bond);
-              in_core = in_core && bond.in_core;
+              if (bond.normal.norm_square() == 0.)
+                first.push_back(bond);
+              else
+                openers.push_back(
+                  {bond.nodes,
+                   bond.factor,
+                   {{bond.normal[0], bond.normal[1], bond.normal[2]}}});
             }
+        const auto &nodes = mesh->nodal().nodes;
+        failure_planes.open(openers, nodes, method.region.horizon);
+        if (!failure_planes.open_planes().empty())
+          for (const auto &bond : loads)
+            if (!is_protected[bond.nodes[0]] && !is_protected[bond.nodes[1]] &&
+                failure_planes.cut(nodes[bond.nodes[0]], nodes[bond.nodes[1]]))
+              first.push_back(bond);
+        bool in_core = true;
+        for (const auto &bond : first)
+          in_core = in_core && bond.in_core;
         if (in_core)
           return first;
 
@@ -238,6 +258,7 @@ namespace Perimorph::Application
         columns.push_back("share_left");
         broken_table = &open_table("broken_bonds.csv", columns);
       }
+    failure_planes.keep();
     const auto state = gather(method);
     if (broken.empty())
       parts_at_start = n_parts(method, state);

@@ -210,6 +210,7 @@ namespace Perimorph::Application
         arrays["alpha"] = in_file_order(*mesh, method.region.alpha);
       store_advances(cracks, checkpoint);
       store_broken_bonds(*mesh, broken, checkpoint);
+      store_points(failure_planes.places(), arrays["failure planes"]);
       checkpoint.words["warnings"] = log.warnings();
       auto sizes                   = earlier_tables;
       for (const auto &[name, table] : tables)
@@ -327,6 +328,10 @@ namespace Perimorph::Application
     cracks.append(advances);
     name_nucleated_cracks();
     broken = stored_broken_bonds(*mesh, *resumed);
+    // Those of cracks that were there from the start are known.
+    const auto places = stored_points<dim>(arrays.at("failure planes"));
+    for (std::size_t k = failure_planes.places().size(); k < places.size(); ++k)
+      failure_planes.add_place(places[k]);
     if (alpha != arrays.end() || !advances.empty() || !broken.empty())
       {
         auto grown = method.region;

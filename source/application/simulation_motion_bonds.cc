@@ -17,7 +17,7 @@ namespace Perimorph::Application
 
   template <int dim>
   std::unique_ptr<Coupling::MovingBonds<dim>>
-  Simulation<dim>::make_moving_bonds(Method &method) const
+  Simulation<dim>::make_moving_bonds(Method &method)
   {
     const Coupling::MotionDamage damage{
       *breaking_rule,
@@ -46,6 +46,7 @@ namespace Perimorph::Application
                                        method.region,
                                        materials.laws),
       damage,
+      failure_planes,
       *method.problem);
   }
 
@@ -119,6 +120,7 @@ namespace Perimorph::Application
         row.push_back(broken.share_left(bond[0], bond[1]));
         broken_table->write_row(row);
       }
+    failure_planes.keep();
     bonds->take_away(found.nodes);
     dissipated_energy += before - method.problem->strain_energy(u);
     u.zero_out_ghost_values();
@@ -171,7 +173,7 @@ namespace Perimorph::Application
 
 #define PERIMORPH_INSTANTIATE(dim)                                         \
   template std::unique_ptr<Coupling::MovingBonds<dim>>                     \
-  Simulation<dim>::make_moving_bonds(Method &) const;                      \
+  Simulation<dim>::make_moving_bonds(Method &);                            \
   template Simulation<dim>::MotionChange Simulation<dim>::break_in_motion( \
     Method &,                                                              \
     std::unique_ptr<Coupling::MovingBonds<dim>> &);                        \

@@ -118,6 +118,7 @@ namespace Perimorph::Application
       take(0, entry, rest);
     if (errors.size() == n_errors)
       check(section + entries[0].name, "", rest, criterion, errors);
+    table.opens_planes = texts.strength_failure == "planes";
     table.materials.assign(names.size(), rest);
     for (const auto &entry : parse(1, Parameters::NameRule::required))
       {

@@ -40,6 +40,9 @@ namespace Perimorph::Application
                                                   Coupling::Scheme::consistent
                                                 ? Damage::FamilyShape::cells
                                                 : Damage::FamilyShape::ball);
+        for (const auto &facet : cracks.facets())
+          for (const auto &corner : facet.corners)
+            failure_planes.add_place(corner);
         warn_of_bond_criteria();
       }
     // Anisotropic laws have no Poisson's ratio: 0.

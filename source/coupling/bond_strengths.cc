@@ -1,4 +1,5 @@
 #include <perimorph/coupling/bond_strengths.h>
+#include <perimorph/damage/strength_rules.h>
 
 #include <algorithm>
 #include <limits>
@@ -6,7 +7,7 @@
 namespace Perimorph::Coupling
 {
   template <int dim>
-  double
+  StrengthLoad
   load_factor_by_strength(const std::array<unsigned int, 2> &nodes,
                           const ParticleStates              &states,
                           const BodyMaterials<dim>          &materials,
@@ -14,12 +15,30 @@ namespace Perimorph::Coupling
                           const Damage::BreakingRule        &rule,
                           Damage::BondState                 &bond)
   {
-    double     lowest = std::numeric_limits<double>::infinity();
-    const auto check  = [&](const unsigned int       law,
-                           const Damage::Strengths &strengths) {
-      bond.axes      = materials.axes[law];
-      bond.strengths = strengths;
-      lowest         = std::min(lowest, rule.load_factor(bond));
+    constexpr double parallel = 1e-6;
+    constexpr double never    = std::numeric_limits<double>::infinity();
+
+    StrengthLoad lowest{never, {}};
+    const auto   check = [&](const unsigned int       law,
+                           const Damage::Strengths &strengths,
+                           const bool               opens_plane) {
+      bond.axes           = materials.axes[law];
+      bond.strengths      = strengths;
+      const double factor = rule.load_factor(bond);
+      if (!(factor < lowest.load_factor))
+        return;
+      lowest = {factor, {}};
+      if (opens_plane)
+        {
+          lowest.normal =
+            Damage::failure_plane_normal(bond.stress, bond.axes, strengths);
+          // Planes of a 2D model stand upright on it.
+          if (dim == 2 && std::abs(lowest.normal[2]) > parallel)
+            lowest.normal = dealii::Tensor<1, 3>();
+          else if (nodes[0] != nodes[1] &&
+                   std::abs(lowest.normal * bond.direction) < parallel)
+            lowest = {never, {}};
+        }
     };
     for (const unsigned int law : states.laws.row(nodes[0]))
       {
@@ -43,22 +62,22 @@ namespace Perimorph::Coupling
               if (strengths == table.interfaces.end())
                 continue;
               on_interface = true;
-              check(law, strengths->second);
-              check(other, strengths->second);
+              check(law, strengths->second, false);
+              check(other, strengths->second, false);
             }
         if (!on_interface)
-          check(law, table.materials[material]);
+          check(law, table.materials[material], table.opens_planes);
       }
     return lowest;
   }
 
-#define PERIMORPH_INSTANTIATE(dim)              \
-  template double load_factor_by_strength<dim>( \
-    const std::array<unsigned int, 2> &,        \
-    const ParticleStates &,                     \
-    const BodyMaterials<dim> &,                 \
-    const StrengthTable &,                      \
-    const Damage::BreakingRule &,               \
+#define PERIMORPH_INSTANTIATE(dim)                    \
+  template StrengthLoad load_factor_by_strength<dim>( \
+    const std::array<unsigned int, 2> &,              \
+    const ParticleStates &,                           \
+    const BodyMaterials<dim> &,                       \
+    const StrengthTable &,                            \
+    const Damage::BreakingRule &,                     \
     Damage::BondState &);
 
   PERIMORPH_INSTANTIATE(2)

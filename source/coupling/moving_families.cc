@@ -21,12 +21,14 @@ namespace Perimorph::Coupling
                      const BodyMaterials<dim>         &materials,
                      const FamilyParameters           &parameters,
                      const MotionDamage               &damage,
+                     FailurePlanes<dim>               &planes,
                      CoupledProblem<dim>              &problem)
         : mesh(mesh)
         , region(region)
         , materials(materials)
         , parameters(parameters)
         , damage(damage)
+        , planes(planes)
         , intact(problem.shared().intact->families)
         , partition(problem.partition())
         , term(*problem.template find_term<CorrespondenceTerm<dim>>())
@@ -76,7 +78,8 @@ namespace Perimorph::Coupling
             for (unsigned int n = 0; n < nodal.n_nodes(); ++n)
               may_fail[n] = states.nodes[n].exists && fails_alone(n, states);
           }
-        std::vector<std::array<unsigned int, 2>> found;
+        std::vector<std::array<unsigned int, 2>> found; // break alone
+        std::vector<OverloadedBond>              openers;
         for (std::size_t p = 0; p < current.n_particles(); ++p)
           {
             const unsigned int i = current.node[p];
@@ -111,9 +114,26 @@ namespace Perimorph::Coupling
                                 xi,
                                 eta,
                                 bond);
-                if (load_factor({{first, second}}, states, bond) <= 1.)
+                const auto load = load_factor({{first, second}}, states, bond);
+                if (!(load.load_factor <= 1.))
+                  continue;
+                if (load.normal.norm_square() == 0.)
                   found.push_back({{first, second}});
+                else
+                  openers.push_back(
+                    {{{first, second}},
+                     load.load_factor,
+                     {{load.normal[0], load.normal[1], load.normal[2]}}});
               }
+          }
+        if (damage.strengths && damage.strengths->opens_planes)
+          {
+            if (dealii::Utilities::MPI::n_mpi_processes(mesh.communicator()) >
+                1)
+              openers = Base::gather_on_all(mesh.communicator(), openers);
+            planes.open(std::move(openers), nodal.nodes, region.horizon);
+            if (!planes.open_planes().empty())
+              add_cut_bonds(found);
           }
         return gather_overloaded(std::move(found),
                                  in_core,
@@ -151,21 +171,43 @@ namespace Perimorph::Coupling
                       along,
                       along,
                       bond);
-        return load_factor({{node, node}}, states, bond) <= 1.;
+        return load_factor({{node, node}}, states, bond).load_factor <= 1.;
       }
 
-      double
+      void
+      add_cut_bonds(std::vector<std::array<unsigned int, 2>> &found) const
+      {
+        const auto &nodes = mesh.nodal().nodes;
+        for (std::size_t p = 0; p < current.n_particles(); ++p)
+          {
+            const unsigned int i = current.node[p];
+            if (damage.is_protected[i] ||
+                !planes.is_near(nodes[i], region.horizon[i]))
+              continue;
+            for (std::size_t b = current.offsets[p]; b < current.offsets[p + 1];
+                 ++b)
+              {
+                const unsigned int j = current.neighbor[b];
+                if (j != i && !damage.is_protected[j] &&
+                    planes.cut(nodes[i], nodes[j]))
+                  found.push_back({{std::min(i, j), std::max(i, j)}});
+              }
+          }
+      }
+
+      StrengthLoad
       load_factor(const std::array<unsigned int, 2> &nodes,
                   const ParticleStates              &states,
                   Damage::BondState                 &bond) const
       {
-        return damage.strengths ? load_factor_by_strength(nodes,
-                                                          states,
-                                                          materials,
-                                                          *damage.strengths,
-                                                          damage.rule,
-                                                          bond)
-                                : damage.rule.load_factor(bond);
+        if (!damage.strengths)
+          return {damage.rule.load_factor(bond), {}};
+        return load_factor_by_strength(nodes,
+                                       states,
+                                       materials,
+                                       *damage.strengths,
+                                       damage.rule,
+                                       bond);
       }
 
       /// Of the largest eigenvalue of a family alone: that of C times that of
@@ -224,6 +266,7 @@ namespace Perimorph::Coupling
       const BodyMaterials<dim>           &materials;
       const FamilyParameters              parameters;
       const MotionDamage                  damage;
+      FailurePlanes<dim>                 &planes;
       const Peridynamics::FamilySet<dim> &intact;
       const Fem::NodePartition<dim>      &partition;
       CorrespondenceTerm<dim>            &term;
@@ -258,6 +301,7 @@ namespace Perimorph::Coupling
                        const BodyMaterials<dim>         &materials,
                        const FamilyParameters           &parameters,
                        const MotionDamage               &damage,
+                       FailurePlanes<dim>               &planes,
                        CoupledProblem<dim>              &problem)
   {
     return std::make_unique<MovingFamilies<dim>>(mesh,
@@ -265,6 +309,7 @@ namespace Perimorph::Coupling
                                                  materials,
                                                  parameters,
                                                  damage,
+                                                 planes,
                                                  problem);
   }
 
@@ -275,6 +320,7 @@ namespace Perimorph::Coupling
     const BodyMaterials<dim> &,                                         \
     const FamilyParameters &,                                           \
     const MotionDamage &,                                               \
+    FailurePlanes<dim> &,                                               \
     CoupledProblem<dim> &);
   PERIMORPH_INSTANTIATE(2)
   PERIMORPH_INSTANTIATE(3)

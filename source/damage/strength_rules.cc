@@ -88,6 +88,41 @@ namespace Perimorph::Damage
     return largest * largest;
   }
 
+  dealii::Tensor<1, 3>
+  failure_plane_normal(const dealii::SymmetricTensor<2, 3> &stress,
+                       const dealii::Tensor<2, 3>          &axes,
+                       const Strengths                     &strengths)
+  {
+    const auto local   = fibre_stress(stress, axes);
+    const auto tension = local.across[0] / strengths.transverse;
+    const auto shear   = std::sqrt(local.shear_square) / strengths.shear;
+    const auto row     = [&](const unsigned int a) {
+      return dealii::Tensor<1, 3>({axes[a][0], axes[a][1], axes[a][2]});
+    };
+    if (local.along / strengths.longitudinal > std::max(tension, shear))
+      return row(0);
+    const auto component = [&](const unsigned int a, const unsigned int b) {
+      return row(a) * (stress * row(b));
+    };
+    double in_2, in_3;
+    if (tension >= shear)
+      {
+        // Half of the angle of the principal direction in Mohr's circle.
+        const double angle =
+          0.5 *
+          std::atan2(2. * component(1, 2), component(1, 1) - component(2, 2));
+        in_2 = std::cos(angle);
+        in_3 = std::sin(angle);
+      }
+    else
+      {
+        const double size = std::sqrt(local.shear_square);
+        in_2              = component(0, 1) / size;
+        in_3              = component(0, 2) / size;
+      }
+    return in_2 * row(1) + in_3 * row(2);
+  }
+
   std::unique_ptr<BreakingRule>
   make_strength_rule(const Criterion criterion)
   {

@@ -87,6 +87,15 @@ namespace Perimorph::Application
   std::vector<Bonds::CrackFacet<dim>>
   stored_advances(const Output::Checkpoint &checkpoint);
 
+  /// Components of the points one after another.
+  template <int dim>
+  void
+  store_points(const std::vector<dealii::Point<dim>> &points,
+               std::vector<double>                   &numbers);
+  template <int dim>
+  std::vector<dealii::Point<dim>>
+  stored_points(const std::vector<double> &numbers);
+
   /// Bonds that broke one by one, with nodes as in the mesh file.
   template <int dim>
   void

@@ -250,7 +250,7 @@ namespace Perimorph::Application
                  const MotionIntegrator<dim> &integrator,
                  Method                      &method);
     std::unique_ptr<Coupling::MovingBonds<dim>>
-    make_moving_bonds(Method &method) const;
+    make_moving_bonds(Method &method);
     enum class MotionChange
     {
       none,
@@ -370,6 +370,7 @@ namespace Perimorph::Application
       double                      factor;
       double                      energy;
       bool                        in_core; ///< may break
+      dealii::Tensor<1, 3>        normal;  ///< of StrengthLoad
     };
     std::vector<BondLoad>
     bond_loads(const Method &method) const;
@@ -523,6 +524,7 @@ namespace Perimorph::Application
 
     // Breaking of bonds.
     Bonds::BrokenBonds                    broken;
+    Coupling::FailurePlanes<dim>          failure_planes;
     std::unique_ptr<Damage::BreakingRule> breaking_rule;
     std::vector<bool>                     is_protected; ///< nodes
     Output::CsvWriter                    *broken_table   = nullptr;

@@ -68,6 +68,7 @@ namespace Perimorph::Application
            cohesion = 0., friction_angle = 0.;
     unsigned int maximum_advances = 1000, softening_teeth = 6;
     std::string  strengths, strengths_by_volume, interface_strengths;
+    std::string  strength_failure = "planes";
     std::string  protected_boundaries, protected_materials, protected_regions;
 
     std::string symmetry, displacement, mean_displacement, rigid_plate,

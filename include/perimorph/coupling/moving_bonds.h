@@ -3,6 +3,7 @@
 #include <perimorph/bonds/broken_bonds.h>
 #include <perimorph/coupling/bond_states.h>
 #include <perimorph/coupling/coupled_problem.h>
+#include <perimorph/coupling/failure_planes.h>
 
 #include <memory>
 
@@ -60,6 +61,7 @@ namespace Perimorph::Coupling
   /// and strains of particles first, since a mean of two states that are safe
   /// is safe (all criteria of particles are convex), but for bonds between
   /// materials.
+  /// @param planes   those of the bonds that overloaded() gives are open in it
   /// @param problem  with the bonds broken so far; is changed
   template <int dim>
   std::unique_ptr<MovingBonds<dim>>
@@ -68,6 +70,7 @@ namespace Perimorph::Coupling
                        const BodyMaterials<dim>         &materials,
                        const FamilyParameters           &parameters,
                        const MotionDamage               &damage,
+                       FailurePlanes<dim>               &planes,
                        CoupledProblem<dim>              &problem);
 
   /// Of the bond-based model, whose bonds break by their stretch.

@@ -29,6 +29,15 @@ namespace Perimorph::Damage
                        const dealii::Tensor<2, 3>          &axes,
                        const Strengths                     &strengths);
 
+  /// Normal of the plane on which a material fails: along the fibres where
+  /// s_1 / X is the largest of s_1 / X, s_2 / Y, s_3 / Y and
+  /// sqrt(t_12^2 + t_13^2) / S; else across them, in the direction of the
+  /// larger tension or of the shear. A unit vector in global components.
+  dealii::Tensor<1, 3>
+  failure_plane_normal(const dealii::SymmetricTensor<2, 3> &stress,
+                       const dealii::Tensor<2, 3>          &axes,
+                       const Strengths                     &strengths);
+
   /// Rule of a criterion with uses_strengths(): 1 / sqrt(index) of the stress
   /// of the bond. Bonds that do not extend never break.
   std::unique_ptr<BreakingRule>

@@ -47,9 +47,19 @@ namespace Perimorph::Coupling
       double
       factor(const unsigned int i, const unsigned int j) const
       {
+        return load(i, j, {{1., 0.}}).load_factor;
+      }
+
+      StrengthLoad
+      load(const unsigned int           i,
+           const unsigned int           j,
+           const std::array<double, 2> &direction) const
+      {
         Damage::BondState bond;
-        bond.length    = 1.;
-        bond.extension = 1.;
+        bond.length       = 1.;
+        bond.extension    = 1.;
+        bond.direction[0] = direction[0];
+        bond.direction[1] = direction[1];
         return load_factor_by_strength<2>(
           {{i, j}},
           states,
@@ -87,6 +97,30 @@ namespace Perimorph::Coupling
     row.table.interfaces.clear();
     row.table.interfaces[{{1, 2}}] = {1., 1., 1.};
     EXPECT_NEAR(row.factor(0, 1), 100. / 25., 1e-14);
+  }
+
+  TEST(BondStrengths, planes_open_where_the_material_fails)
+  {
+    Row row;
+    row.set(2, 0.);
+    for (const std::array<double, 2> direction :
+         {std::array<double, 2>{{1., 0.}}, {{0.6, 0.8}}})
+      {
+        // Across the fibres of the second, along which x is the normal.
+        const auto load = row.load(1, 2, direction);
+        EXPECT_NEAR(load.load_factor, 5. / 2., 1e-14);
+        EXPECT_NEAR(std::abs(load.normal[0]), 1., 1e-14);
+      }
+    // No plane along a bond can cut it.
+    EXPECT_TRUE(std::isinf(row.load(1, 2, {{0., 1.}}).load_factor));
+
+    row.table.opens_planes = false;
+    EXPECT_NEAR(row.load(1, 2, {{0., 1.}}).load_factor, 5. / 2., 1e-14);
+    EXPECT_EQ(row.load(1, 2, {{1., 0.}}).normal.norm(), 0.);
+
+    row.table.opens_planes         = true;
+    row.table.interfaces[{{0, 1}}] = {200., 1., 1.};
+    EXPECT_EQ(row.load(1, 2, {{1., 0.}}).normal.norm(), 0.);
   }
 
   TEST(BondStrengths, axes_that_vary_in_a_material_make_no_interface)

@@ -90,6 +90,7 @@ namespace Perimorph::Coupling
                                 broken,
                                 mass,
                                 std::numeric_limits<double>::infinity()};
+      FailurePlanes<2>   planes;
       const auto         bonds =
         model == Model::bond_based
                   ? make_moving_pairs<2>(setup.mesh,
@@ -105,6 +106,7 @@ namespace Perimorph::Coupling
                                                          setup.region,
                                                          setup.materials.laws),
                                     damage,
+                                    planes,
                                     problem);
       // In two events, so that families lose bonds twice.
       for (const double amplitude : {0.7, 1.})

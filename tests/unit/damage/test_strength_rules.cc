@@ -134,4 +134,39 @@ namespace Perimorph::Damage
         EXPECT_GT(index(stress(1, 2, 60.), fibres(0.), hta), 0.99);
       }
   }
+
+  TEST(StrengthRules, planes_of_failure_follow_the_fibres)
+  {
+    const auto is_along = [](const dealii::Tensor<1, 3> &normal,
+                             const dealii::Tensor<1, 3> &expected) {
+      EXPECT_NEAR(normal.norm(), 1., 1e-14);
+      EXPECT_NEAR(std::abs(normal * expected), 1., 1e-12);
+    };
+    for (const double angle : {0., 30., 60., 90., -45.})
+      {
+        const auto axes = fibres(angle);
+        const auto row  = [&](const unsigned int a) {
+          return dealii::Tensor<1, 3>({axes[a][0], axes[a][1], axes[a][2]});
+        };
+        const auto global = [&](const dealii::SymmetricTensor<2, 3> &local) {
+          return symmetrize(transpose(axes) * dealii::Tensor<2, 3>(local) *
+                            axes);
+        };
+        // Fibres fail, they are torn apart, they slide.
+        auto local  = stress(0, 0, 1600.);
+        local[1][1] = 10.;
+        is_along(failure_plane_normal(global(local), axes, hta), row(0));
+        local[0][0] = 200.;
+        is_along(failure_plane_normal(global(local), axes, hta), row(1));
+        is_along(failure_plane_normal(global(stress(0, 1, 20.)), axes, hta),
+                 row(1));
+        is_along(failure_plane_normal(global(stress(0, 2, -20.)), axes, hta),
+                 row(2));
+        // The larger principal tension across the fibres.
+        auto across  = stress(1, 2, 8.);
+        across[1][1] = 12.;
+        is_along(failure_plane_normal(global(across), axes, hta),
+                 (2. * row(1) + row(2)) / std::sqrt(5.));
+      }
+  }
 } // namespace Perimorph::Damage

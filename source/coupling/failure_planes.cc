@@ -1,0 +1,246 @@
+#include <perimorph/coupling/failure_planes.h>
+
+#include <deal.II/numerics/rtree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace bgi = boost::geometry::index;
+
+namespace Perimorph::Coupling
+{
+  namespace
+  {
+    template <int dim>
+    using Tree =
+      bgi::rtree<std::pair<dealii::Point<dim>, std::size_t>, bgi::linear<16>>;
+
+    template <int dim>
+    dealii::BoundingBox<dim>
+    box_around(const dealii::Point<dim> &point, const double distance)
+    {
+      dealii::Point<dim> low = point, high = point;
+      for (int d = 0; d < dim; ++d)
+        {
+          low[d] -= distance;
+          high[d] += distance;
+        }
+      return dealii::BoundingBox<dim>(std::make_pair(low, high));
+    }
+
+    template <int dim>
+    dealii::Point<dim>
+    middle(const dealii::Point<dim> &first, const dealii::Point<dim> &second)
+    {
+      return first + 0.5 * (second - first);
+    }
+
+    /// Where a bond crosses a plane through a place. Ends on the plane lie on
+    /// the side of the normal.
+    /// @return  false if it does not
+    template <int dim>
+    bool
+    crossing(const dealii::Point<dim>     &first,
+             const dealii::Point<dim>     &second,
+             const dealii::Point<dim>     &place,
+             const dealii::Tensor<1, dim> &normal,
+             dealii::Point<dim>           &result)
+    {
+      constexpr double on_plane = 1e-9;
+
+      const double tolerance = on_plane * first.distance(second);
+      const double a         = normal * (first - place);
+      const double b         = normal * (second - place);
+      if ((a < -tolerance) == (b < -tolerance))
+        return false;
+      result = first + (a / (a - b)) * (second - first);
+      return true;
+    }
+  } // namespace
+
+  template <int dim>
+  bool
+  FailurePlane<dim>::cuts(const dealii::Point<dim> &first,
+                          const dealii::Point<dim> &second) const
+  {
+    dealii::Point<dim> place;
+    return crossing(first, second, center, normal, place) &&
+           place.distance(center) <= radius;
+  }
+
+  template <int dim>
+  struct FailurePlanes<dim>::Trees
+  {
+    Tree<dim> places, planes;
+  };
+
+  template <int dim>
+  FailurePlanes<dim>::FailurePlanes()
+    : trees(std::make_unique<Trees>())
+  {}
+
+  template <int dim>
+  FailurePlanes<dim>::~FailurePlanes() = default;
+
+  template <int dim>
+  void
+  FailurePlanes<dim>::add_place(const dealii::Point<dim> &place)
+  {
+    trees->places.insert(std::make_pair(place, all_places.size()));
+    all_places.push_back(place);
+  }
+
+  template <int dim>
+  const std::vector<dealii::Point<dim>> &
+  FailurePlanes<dim>::places() const
+  {
+    return all_places;
+  }
+
+  template <int dim>
+  void
+  FailurePlanes<dim>::open(std::vector<OverloadedBond>            bonds,
+                           const std::vector<dealii::Point<dim>> &nodes,
+                           const std::vector<double>             &horizon)
+  {
+    // Load factors that differ by round-off count as equal; then the place
+    // decides, since the numbers of nodes depend on the number of ranks.
+    constexpr double digits = 1e6;
+
+    planes.clear();
+    trees->planes.clear();
+    largest_radius = 0.;
+
+    struct Candidate
+    {
+      double                            load;
+      std::array<dealii::Point<dim>, 2> ends;
+      dealii::Tensor<1, dim>            normal;
+      double                            horizon;
+    };
+    const auto less = [](const dealii::Point<dim> &a,
+                         const dealii::Point<dim> &b) {
+      for (int d = 0; d < dim; ++d)
+        if (a[d] != b[d])
+          return a[d] < b[d];
+      return false;
+    };
+    std::vector<Candidate> candidates;
+    for (const auto &bond : bonds)
+      {
+        Candidate one;
+        for (int d = 0; d < dim; ++d)
+          one.normal[d] = bond.normal[d];
+        if (one.normal.norm_square() == 0.)
+          continue;
+        one.load    = std::round(bond.load_factor * digits);
+        one.ends    = {{nodes[bond.nodes[0]], nodes[bond.nodes[1]]}};
+        one.horizon = 0.5 * (horizon[bond.nodes[0]] + horizon[bond.nodes[1]]);
+        if (less(one.ends[1], one.ends[0]))
+          std::swap(one.ends[0], one.ends[1]);
+        candidates.push_back(one);
+      }
+    std::sort(candidates.begin(),
+              candidates.end(),
+              [&](const Candidate &a, const Candidate &b) {
+                if (a.load != b.load)
+                  return a.load < b.load;
+                return a.ends[0] == b.ends[0] ? less(a.ends[1], b.ends[1])
+                                              : less(a.ends[0], b.ends[0]);
+              });
+
+    const auto open_at = [&](const dealii::Point<dim> &center,
+                             const Candidate          &bond) {
+      planes.push_back({center, bond.normal, 0.5 * bond.horizon});
+      largest_radius = std::max(largest_radius, planes.back().radius);
+      trees->planes.insert(std::make_pair(center, planes.size() - 1));
+    };
+    std::vector<const Candidate *> elsewhere;
+    for (const auto &bond : candidates)
+      {
+        if (cut(bond.ends[0], bond.ends[1]))
+          continue;
+        dealii::Point<dim> center;
+        double             distance = std::numeric_limits<double>::infinity();
+        const auto         box =
+          box_around(middle(bond.ends[0], bond.ends[1]), 2. * bond.horizon);
+        for (const auto *tree : {&trees->places, &trees->planes})
+          for (auto entry = tree->qbegin(bgi::intersects(box));
+               entry != tree->qend();
+               ++entry)
+            {
+              dealii::Point<dim> at;
+              if (!crossing(bond.ends[0],
+                            bond.ends[1],
+                            entry->first,
+                            bond.normal,
+                            at))
+                continue;
+              const double d = at.distance(entry->first);
+              if (d <= bond.horizon && d < distance)
+                {
+                  distance = d;
+                  center   = at;
+                }
+            }
+        if (distance <= bond.horizon)
+          open_at(center, bond);
+        else
+          elsewhere.push_back(&bond);
+      }
+    for (const auto *bond : elsewhere)
+      {
+        const auto center = middle(bond->ends[0], bond->ends[1]);
+        if (!is_near(center, bond->horizon))
+          open_at(center, *bond);
+      }
+  }
+
+  template <int dim>
+  const std::vector<FailurePlane<dim>> &
+  FailurePlanes<dim>::open_planes() const
+  {
+    return planes;
+  }
+
+  template <int dim>
+  bool
+  FailurePlanes<dim>::is_near(const dealii::Point<dim> &point,
+                              const double              distance) const
+  {
+    return trees->planes.qbegin(
+             bgi::intersects(box_around(point, distance + largest_radius))) !=
+           trees->planes.qend();
+  }
+
+  template <int dim>
+  bool
+  FailurePlanes<dim>::cut(const dealii::Point<dim> &first,
+                          const dealii::Point<dim> &second) const
+  {
+    const auto box = box_around(middle(first, second),
+                                0.5 * first.distance(second) + largest_radius);
+    for (auto entry = trees->planes.qbegin(bgi::intersects(box));
+         entry != trees->planes.qend();
+         ++entry)
+      if (planes[entry->second].cuts(first, second))
+        return true;
+    return false;
+  }
+
+  template <int dim>
+  void
+  FailurePlanes<dim>::keep()
+  {
+    for (const auto &plane : planes)
+      add_place(plane.center);
+    planes.clear();
+    trees->planes.clear();
+  }
+
+  template struct FailurePlane<2>;
+  template struct FailurePlane<3>;
+  template class FailurePlanes<2>;
+  template class FailurePlanes<3>;
+} // namespace Perimorph::Coupling
