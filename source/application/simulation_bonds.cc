@@ -160,36 +160,54 @@ namespace Perimorph::Application
 
   template <int dim>
   std::vector<typename Simulation<dim>::BondLoad>
+  Simulation<dim>::lowest_loads(const Method          &method,
+                                const double           limit,
+                                std::vector<BondLoad> &loads)
+  {
+    const auto           &nodes = mesh->nodal().nodes;
+    std::vector<BondLoad> first;
+    while (first.empty())
+      {
+        double lowest = never;
+        for (const auto &bond : loads)
+          lowest = std::min(lowest, bond.factor);
+        if (!(lowest < never) || lowest > limit)
+          break;
+        const double highest      = std::min(limit, (1. + tolerance) * lowest);
+        const auto   breaks_alone = [&](const BondLoad &bond) {
+          return bond.factor <= highest && bond.normal.norm_square() == 0.;
+        };
+        std::vector<Coupling::OverloadedBond> openers;
+        for (const auto &bond : loads)
+          if (bond.factor <= highest && !breaks_alone(bond))
+            openers.push_back(
+              {bond.nodes,
+               bond.factor,
+               {{bond.normal[0], bond.normal[1], bond.normal[2]}}});
+        failure_planes.open(openers, nodes, method.region.horizon);
+        for (auto &bond : loads)
+          {
+            const auto &[i, j] = bond.nodes;
+            if (breaks_alone(bond) || (failure_planes.cut(nodes[i], nodes[j]) &&
+                                       !is_protected[i] && !is_protected[j]))
+              first.push_back(bond);
+            else if (bond.factor <= highest)
+              bond.factor = never; // waits for a crack beside it
+          }
+      }
+    return first;
+  }
+
+  template <int dim>
+  std::vector<typename Simulation<dim>::BondLoad>
   Simulation<dim>::next_to_break(Method &method, const double limit)
   {
     while (true)
       {
-        std::vector<BondLoad> first;
-        const auto            loads  = bond_loads(method);
-        double                lowest = never;
-        for (const auto &bond : loads)
-          lowest = std::min(lowest, bond.factor);
-        if (!(lowest < never) || lowest > limit)
+        auto       loads = bond_loads(method);
+        const auto first = lowest_loads(method, limit, loads);
+        if (first.empty())
           return {};
-        std::vector<Coupling::OverloadedBond> openers;
-        for (const auto &bond : loads)
-          if (bond.factor <= std::min(limit, (1. + tolerance) * lowest))
-            {
-              if (bond.normal.norm_square() == 0.)
-                first.push_back(bond);
-              else
-                openers.push_back(
-                  {bond.nodes,
-                   bond.factor,
-                   {{bond.normal[0], bond.normal[1], bond.normal[2]}}});
-            }
-        const auto &nodes = mesh->nodal().nodes;
-        failure_planes.open(openers, nodes, method.region.horizon);
-        if (!failure_planes.open_planes().empty())
-          for (const auto &bond : loads)
-            if (!is_protected[bond.nodes[0]] && !is_protected[bond.nodes[1]] &&
-                failure_planes.cut(nodes[bond.nodes[0]], nodes[bond.nodes[1]]))
-              first.push_back(bond);
         bool in_core = true;
         for (const auto &bond : first)
           in_core = in_core && bond.in_core;
@@ -390,7 +408,7 @@ namespace Perimorph::Application
           return true;
         // Beyond its limit a bond stores more than breaking it takes.
         for (auto &bond : bonds)
-          bond.energy *= bond.factor * bond.factor;
+          bond.energy *= std::pow(std::min(bond.factor, 1.), 2);
         const bool holds = break_bonds(method, bonds, step);
         ++step.number;
         on_step(step);
@@ -406,6 +424,10 @@ namespace Perimorph::Application
   template void Simulation<dim>::warn_of_bond_criteria() const;                     \
   template std::vector<Simulation<dim>::BondLoad> Simulation<dim>::bond_loads(      \
     const Method &) const;                                                          \
+  template std::vector<Simulation<dim>::BondLoad>                                   \
+  Simulation<dim>::lowest_loads(const Method &,                                     \
+                                double,                                             \
+                                std::vector<BondLoad> &);                           \
   template std::vector<Simulation<dim>::BondLoad>                                   \
                         Simulation<dim>::next_to_break(Method &, double);           \
   template unsigned int Simulation<dim>::n_parts(const Method &,                    \

@@ -161,16 +161,19 @@ namespace Perimorph::Coupling
       {
         if (cut(bond.ends[0], bond.ends[1]))
           continue;
-        dealii::Point<dim> center;
-        double             distance = std::numeric_limits<double>::infinity();
-        const auto         box =
-          box_around(middle(bond.ends[0], bond.ends[1]), 2. * bond.horizon);
+        const auto center   = middle(bond.ends[0], bond.ends[1]);
+        auto       next     = center;
+        double     distance = std::numeric_limits<double>::infinity();
+        bool       is_alone = true;
+        const auto box      = box_around(center, 2. * bond.horizon);
         for (const auto *tree : {&trees->places, &trees->planes})
           for (auto entry = tree->qbegin(bgi::intersects(box));
                entry != tree->qend();
                ++entry)
             {
               dealii::Point<dim> at;
+              is_alone =
+                is_alone && center.distance(entry->first) > bond.horizon;
               if (!crossing(bond.ends[0],
                             bond.ends[1],
                             entry->first,
@@ -181,12 +184,12 @@ namespace Perimorph::Coupling
               if (d <= bond.horizon && d < distance)
                 {
                   distance = d;
-                  center   = at;
+                  next     = at;
                 }
             }
         if (distance <= bond.horizon)
-          open_at(center, bond);
-        else
+          open_at(next, bond);
+        else if (is_alone)
           elsewhere.push_back(&bond);
       }
     for (const auto *bond : elsewhere)

@@ -1,12 +1,15 @@
 """Crack paths in mixed mode on three meshes, a core that grows with the crack
-against a large fixed one, and growth at finite strain.
+against a large fixed one, growth at finite strain, and cracks along the fibres
+of a composite.
 
-No closed forms: the runs are compared with each other. Limits of the
+No closed forms: the runs are compared with each other, and the paths in the
+composite with its fibres (Hattori et al. (2017), section 6.2). Limits of the
 acceptance: paths within one horizon, peak loads within 5 %; loads and
 displacements of the two cores within 0.5 % at half the particles; energy
-balance 1e-8, at finite strain 1 %.
+balance 1e-8, at finite strain 1 %; angles of paths in the composite 3 degrees.
 """
 
+import math
 import os
 
 from verification import MESHES, Study
@@ -137,11 +140,71 @@ def finite_strain(study):
                            growth["length"][0]), expected, 0)
 
 
+COMPOSITE = "composite_centre_crack.prm"
+HALF_CRACK, HALF_WIDTH, HALF_HEIGHT = .0125, .0625, .125
+REGULAR = {
+    "Mesh/file": os.path.join(MESHES, "beam_rectangle.geo"),
+    "Mesh/geometry parameters": "L = 0.125, d = 0.25, nx = 100, ny = 200"
+}
+
+
+def line_through(points):
+    """Angle in degrees, from -90 to 90, of the line with the least sum of
+    squared distances to the points."""
+    n = len(points)
+    mean = [sum(point[k] for point in points) / n for k in (0, 1)]
+    xx, yy, xy = (sum((point[j] - mean[j]) * (point[k] - mean[k])
+                      for point in points) for j, k in ((0, 0), (1, 1), (0, 1)))
+    return math.degrees(.5 * math.atan2(2. * xy, xx - yy))
+
+
+def branches(solution, angle):
+    """Middles of the bonds that broke, on both sides of the crack, of fibres
+    along the load above and below it, too."""
+    table = solution.table("broken_bonds")
+    middles = [(.5 * (table["x1"][k] + table["x2"][k]) - HALF_WIDTH,
+                .5 * (table["y1"][k] + table["y2"][k]))
+               for k in range(len(table["x1"]))]
+    for side in (1., -1.):
+        for way in (1., -1.) if angle == 90 else (0., ):
+            yield [(x, y) for x, y in middles
+                   if side * x > (.75 if angle == 90 else 1.) * HALF_CRACK and
+                   way * y >= 0.]
+
+
+def along_the_fibres(study):
+    """Through the whole plate, but for fibres across the load, where all of it
+    comes near its strength."""
+    runs = [(0, "regular"), (45, "unstructured")]
+    if study.arguments.extent == "long":
+        runs = [(angle, mesh) for angle in (0, 45, 60, 90)
+                for mesh in ("regular", "unstructured")]
+    for angle, mesh in runs:
+        changes = {"Material/orientation": angle}
+        if angle in (0, 90):
+            changes["Load steps/end time"] = 32e-6
+        if mesh == "regular":
+            changes.update(REGULAR)
+        solution = study.solve(COMPOSITE, changes)
+        for points in branches(solution, angle):
+            name = "fibres at %d, %s: " % (angle, mesh)
+            turned = (line_through(points) - angle + 90.) % 180. - 90.
+            study.within(name + "path, degrees from them", turned, 0., 3.)
+            way = (max(abs(y) for _, y in points) / HALF_HEIGHT
+                   if angle == 90 else
+                   max(abs(x) for x, _ in points) / HALF_WIDTH)
+            study.above(name + "share of the way", way,
+                        .7 if angle == 0 else .95)
+        study.below("fibres at %d, %s: energy balance" % (angle, mesh),
+                    abs(solution["energy_balance"]), .01)
+
+
 def main():
-    study = Study(__doc__)
+    study = Study(__doc__, extent=["short", "long"])
     for name, part in (("three meshes", paths_on_three_meshes),
                        ("growing and fixed core", growing_and_fixed_core),
-                       ("finite strain", finite_strain)):
+                       ("finite strain", finite_strain),
+                       ("along the fibres", along_the_fibres)):
         if study.part(name):
             part(study)
     study.finish()

@@ -374,6 +374,14 @@ namespace Perimorph::Application
     };
     std::vector<BondLoad>
     bond_loads(const Method &method) const;
+    /// The bonds with the lowest loads of all, within a tolerance, and those
+    /// cut by planes that they open; none above the limit.
+    /// @param loads  factors of bonds that wait for a crack beside them become
+    ///               infinite
+    std::vector<BondLoad>
+    lowest_loads(const Method          &method,
+                 double                 limit,
+                 std::vector<BondLoad> &loads);
     /// The bonds that break first, all within a tolerance of the lowest load;
     /// none if that is above the limit or no bond extends. Replaces the method
     /// by one with a larger core if they are not in the core.

@@ -41,8 +41,9 @@ namespace Perimorph::Coupling
   /// and cuts all bonds that cross it. Where the bond crosses the continuation
   /// of a tip or of an earlier plane within a horizon of it, it opens there:
   /// cracks go on instead of beginning anew beside. These come first, then the
-  /// others, the most overloaded bonds before the less; new cracks wait while
-  /// planes open within a horizon, since these will relieve them.
+  /// others, the most overloaded bonds before the less. No crack begins within
+  /// a horizon of a plane that opened before, since the model cannot tell both
+  /// apart.
   ///
   /// The same on all ranks.
   template <int dim>
@@ -52,11 +53,15 @@ namespace Perimorph::Coupling
     FailurePlanes();
     ~FailurePlanes();
 
-    /// A place from which cracks go on.
+    /// A tip of a crack that is there from the start.
     void
-    add_place(const dealii::Point<dim> &place);
+    add_tip(const dealii::Point<dim> &tip);
 
-    /// All places, in the order in which they were added.
+    /// A plane that opened before.
+    void
+    add_place(const dealii::Point<dim> &center);
+
+    /// Centers of all planes that opened before, in their order.
     const std::vector<dealii::Point<dim>> &
     places() const;
 
@@ -81,7 +86,7 @@ namespace Perimorph::Coupling
     cut(const dealii::Point<dim> &first,
         const dealii::Point<dim> &second) const;
 
-    /// The open planes become places from which cracks go on.
+    /// The planes stay open; cracks go on from there.
     void
     keep();
 
