@@ -328,10 +328,8 @@ namespace Perimorph::Application
     cracks.append(advances);
     name_nucleated_cracks();
     broken = stored_broken_bonds(*mesh, *resumed);
-    // Those of cracks that were there from the start are known.
-    const auto places = stored_points<dim>(arrays.at("failure planes"));
-    for (std::size_t k = failure_planes.places().size(); k < places.size(); ++k)
-      failure_planes.add_place(places[k]);
+    for (const auto &center : stored_points<dim>(arrays.at("failure planes")))
+      failure_planes.add_place(center);
     if (alpha != arrays.end() || !advances.empty() || !broken.empty())
       {
         auto grown = method.region;

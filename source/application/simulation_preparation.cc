@@ -42,7 +42,7 @@ namespace Perimorph::Application
                                                 : Damage::FamilyShape::ball);
         for (const auto &facet : cracks.facets())
           for (const auto &corner : facet.corners)
-            failure_planes.add_place(corner);
+            failure_planes.add_tip(corner);
         warn_of_bond_criteria();
       }
     // Anisotropic laws have no Poisson's ratio: 0.

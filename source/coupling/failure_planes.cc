@@ -72,7 +72,7 @@ namespace Perimorph::Coupling
   template <int dim>
   struct FailurePlanes<dim>::Trees
   {
-    Tree<dim> places, planes;
+    Tree<dim> tips, places, planes;
   };
 
   template <int dim>
@@ -85,10 +85,17 @@ namespace Perimorph::Coupling
 
   template <int dim>
   void
-  FailurePlanes<dim>::add_place(const dealii::Point<dim> &place)
+  FailurePlanes<dim>::add_tip(const dealii::Point<dim> &tip)
   {
-    trees->places.insert(std::make_pair(place, all_places.size()));
-    all_places.push_back(place);
+    trees->tips.insert(std::make_pair(tip, std::size_t(0)));
+  }
+
+  template <int dim>
+  void
+  FailurePlanes<dim>::add_place(const dealii::Point<dim> &center)
+  {
+    trees->places.insert(std::make_pair(center, all_places.size()));
+    all_places.push_back(center);
   }
 
   template <int dim>
@@ -166,14 +173,15 @@ namespace Perimorph::Coupling
         double     distance = std::numeric_limits<double>::infinity();
         bool       is_alone = true;
         const auto box      = box_around(center, 2. * bond.horizon);
-        for (const auto *tree : {&trees->places, &trees->planes})
+        for (const auto *tree : {&trees->tips, &trees->places, &trees->planes})
           for (auto entry = tree->qbegin(bgi::intersects(box));
                entry != tree->qend();
                ++entry)
             {
               dealii::Point<dim> at;
               is_alone =
-                is_alone && center.distance(entry->first) > bond.horizon;
+                is_alone && (tree == &trees->tips ||
+                             center.distance(entry->first) > bond.horizon);
               if (!crossing(bond.ends[0],
                             bond.ends[1],
                             entry->first,

@@ -85,7 +85,7 @@ namespace Perimorph::Coupling
           std::make_pair(dealii::Point<2>(5., 6.25), 5.5)}) // does not cross
       {
         FailurePlanes<2> planes;
-        planes.add_place(place);
+        planes.add_tip(place);
         planes.open(bonds, lattice.nodes, lattice.horizon);
         ASSERT_EQ(planes.open_planes().size(), 1u);
         EXPECT_NEAR(planes.open_planes()[0].center.distance({5., height}),
@@ -123,5 +123,31 @@ namespace Perimorph::Coupling
     ASSERT_EQ(same.open_planes().size(), 3u);
     for (unsigned int k = 0; k < 3; ++k)
       EXPECT_EQ(same.open_planes()[k].center, planes.open_planes()[k].center);
+  }
+
+  TEST(FailurePlanes, no_crack_begins_beside_another)
+  {
+    const Lattice    lattice;
+    FailurePlanes<2> planes;
+    planes.open({Lattice::bond({{5, 5}}, {{5, 6}}, 0.9)},
+                lattice.nodes,
+                lattice.horizon);
+    planes.keep();
+    const auto n_opened = [&](const unsigned int j) {
+      planes.open({Lattice::bond({{5, j}}, {{5, j + 1}}, 0.5)},
+                  lattice.nodes,
+                  lattice.horizon);
+      return planes.open_planes().size();
+    };
+    EXPECT_EQ(n_opened(7), 0u);
+    EXPECT_EQ(n_opened(9), 1u);
+
+    // A tip only says where cracks go on.
+    FailurePlanes<2> other;
+    other.add_tip({5., 5.5});
+    other.open({Lattice::bond({{5, 7}}, {{5, 8}}, 0.5)},
+               lattice.nodes,
+               lattice.horizon);
+    EXPECT_EQ(other.open_planes().size(), 1u);
   }
 } // namespace Perimorph::Coupling
