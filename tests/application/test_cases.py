@@ -152,6 +152,9 @@ MOTION = {
       "Load steps/end time=5e-6", "Load steps/number of steps=10"], {}, {}),
     "dynamic_branching.prm": (["Load steps/end time=2e-6"], {}, {}),
     # the start only, on a coarse mesh
+    "kalthoff_winkler.prm":
+    (["Mesh/geometry parameters=h = 0.002", "Load steps/end time=20e-6"], {},
+     {}),
     "delamination.prm":
     (["Mesh/geometry parameters=nx = 120, ny = 30",
       "Load steps/end time=3e-6"], {}, {}),
