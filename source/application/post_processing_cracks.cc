@@ -135,14 +135,14 @@ namespace Perimorph::Application
   void
   PostProcessing<dim>::add_crack_names(std::vector<std::string> &names) const
   {
-    if (dim == 2 && parameters.breaks_in_motion())
-      for (const auto &tip : tip_names)
-        for (const auto &name : {advance_name, speed_name})
-          names.push_back(tip + name);
-    else
-      for (const auto &tip : tip_names)
+    for (const auto &tip : tip_names)
+      {
         for (const auto &value : value_names<dim>())
           names.push_back(tip + value.name);
+        if (dim == 2 && parameters.breaks_in_motion())
+          for (const auto &name : {advance_name, speed_name})
+            names.push_back(tip + name);
+      }
   }
 
   template <int dim>
