@@ -96,6 +96,9 @@ namespace Perimorph::Application
     }
 
     constexpr unsigned int n_stations = 16;
+
+    const std::string advance_name = "_advance";
+    const std::string speed_name   = "_speed";
   } // namespace
 
   template <int dim>
@@ -120,7 +123,7 @@ namespace Perimorph::Application
            Fracture::find_tips(mesh.nodal(), cracks, has_slits()))
         {
           add(tip.crack);
-          tip_roots.push_back(tip.root);
+          first_tips.push_back(tip);
         }
     else
       for (const auto &front :
@@ -133,8 +136,13 @@ namespace Perimorph::Application
   PostProcessing<dim>::add_crack_names(std::vector<std::string> &names) const
   {
     for (const auto &tip : tip_names)
-      for (const auto &value : value_names<dim>())
-        names.push_back(tip + value.name);
+      {
+        for (const auto &value : value_names<dim>())
+          names.push_back(tip + value.name);
+        if (dim == 2 && parameters.breaks_in_motion())
+          for (const auto &name : {advance_name, speed_name})
+            names.push_back(tip + name);
+      }
   }
 
   template <int dim>
@@ -218,8 +226,11 @@ namespace Perimorph::Application
       for (const auto &tip : tip_quantities(state, region, families))
         {
           const unsigned int t =
-            std::find(tip_roots.begin(), tip_roots.end(), tip.tip.root) -
-            tip_roots.begin();
+            std::find_if(
+              first_tips.begin(),
+              first_tips.end(),
+              [&](const auto &first) { return first.root == tip.tip.root; }) -
+            first_tips.begin();
           if (t == tip_names.size())
             continue;
           found[t] = tip_values(tip);
@@ -255,6 +266,35 @@ namespace Perimorph::Application
     return list;
   }
 
+  template <int dim>
+  std::vector<NamedQuantity>
+  PostProcessing<dim>::crack_advances(
+    [[maybe_unused]] const double               time,
+    [[maybe_unused]] const std::vector<double> &horizon,
+    [[maybe_unused]] const Bonds::BrokenBonds  &broken,
+    [[maybe_unused]] Fracture::AdvanceHistory  &history) const
+  {
+    std::vector<NamedQuantity> list;
+    if constexpr (dim == 2)
+      {
+        const auto advances = Fracture::crack_advances(
+          first_tips,
+          Fracture::broken_places(mesh.nodal(), horizon, broken));
+        history.add(time, advances);
+        const bool has_speed = history.rows.size() > 1;
+        for (unsigned int t = 0; t < tip_names.size(); ++t)
+          {
+            list.push_back(
+              {tip_names[t] + advance_name, advances[t], "length"});
+            list.push_back({tip_names[t] + speed_name,
+                            has_speed ? history.speed(t) : 0.,
+                            "velocity",
+                            has_speed});
+          }
+      }
+    return list;
+  }
+
 #define PERIMORPH_INSTANTIATE(dim)                                           \
   template bool PostProcessing<dim>::has_slits() const;                      \
   template void PostProcessing<dim>::name_crack_tips();                      \
@@ -269,6 +309,11 @@ namespace Perimorph::Application
                                       const Mesh::RegionMap &,               \
                                       const Peridynamics::FamilySet<dim> &)  \
     const;                                                                   \
+  template std::vector<NamedQuantity> PostProcessing<dim>::crack_advances(   \
+    double,                                                                  \
+    const std::vector<double> &,                                             \
+    const Bonds::BrokenBonds &,                                              \
+    Fracture::AdvanceHistory &) const;                                       \
   template std::vector<NamedQuantity> PostProcessing<dim>::crack_quantities( \
     const State<dim> &,                                                      \
     const Mesh::RegionMap &,                                                 \

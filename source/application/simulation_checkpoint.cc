@@ -113,6 +113,31 @@ namespace Perimorph::Application
       return plates;
     }
 
+    void
+    store_history(const Fracture::AdvanceHistory &history,
+                  Output::Checkpoint             &checkpoint)
+    {
+      auto &values = checkpoint.arrays["crack advances"];
+      values.clear();
+      for (const auto &row : history.rows)
+        values.insert(values.end(), row.begin(), row.end());
+      checkpoint.numbers["rows of crack advances"] = history.rows.size();
+    }
+
+    Fracture::AdvanceHistory
+    stored_history(const Output::Checkpoint &checkpoint)
+    {
+      Fracture::AdvanceHistory history;
+      const auto              &values = checkpoint.arrays.at("crack advances");
+      const auto               n_rows = static_cast<std::size_t>(
+        checkpoint.numbers.at("rows of crack advances"));
+      for (std::size_t k = 0; k < n_rows; ++k)
+        history.rows.emplace_back(values.begin() + k * values.size() / n_rows,
+                                  values.begin() +
+                                    (k + 1) * values.size() / n_rows);
+      return history;
+    }
+
     /// Numbers of results.json that grow or stay from step to step.
     const std::vector<std::pair<std::string, std::string>> result_numbers = {
       {"counts", "newton_iterations"},
@@ -197,6 +222,7 @@ namespace Perimorph::Application
         if (const auto value = result->number(section, name))
           numbers[section + " / " + name] = *value;
       arrays["recent loads"] = recent_loads;
+      store_history(advance_history, checkpoint);
       arrays["displacement"] = in_file_order(*mesh, state.displacement);
       if (!state.velocity.empty())
         {
@@ -323,6 +349,7 @@ namespace Perimorph::Application
             result->set(section, name, found->second);
         }
     recent_loads        = arrays.at("recent loads");
+    advance_history     = stored_history(*resumed);
     const auto advances = stored_advances<dim>(*resumed);
     const auto alpha    = arrays.find("alpha");
     cracks.append(advances);

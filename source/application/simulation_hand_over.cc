@@ -20,28 +20,6 @@ namespace Perimorph::Application
     /// Changes of energy so small are small enough [of the strain energy].
     constexpr double precision = 1e-4;
 
-    Fracture::BrokenPlace
-    middle_of(const Mesh::NodalMesh<2>          &mesh,
-              const std::vector<double>         &horizon,
-              const std::array<unsigned int, 2> &nodes)
-    {
-      return {mesh.nodes[nodes[0]] +
-                0.5 * (mesh.nodes[nodes[1]] - mesh.nodes[nodes[0]]),
-              0.5 * (horizon[nodes[0]] + horizon[nodes[1]])};
-    }
-
-    std::vector<Fracture::BrokenPlace>
-    broken_places(const Mesh::NodalMesh<2>  &mesh,
-                  const std::vector<double> &horizon,
-                  const Bonds::BrokenBonds  &broken)
-    {
-      std::vector<Fracture::BrokenPlace> places;
-      for (const auto &bond : broken.list())
-        if (bond.teeth == broken.n_teeth())
-          places.push_back(middle_of(mesh, horizon, bond.nodes));
-      return places;
-    }
-
     /// The cracks with tips once one has the length, at least a horizon. Cracks
     /// at both sides of a hole grow in turns: those of half the length come
     /// along.
@@ -78,7 +56,7 @@ namespace Perimorph::Application
       Bonds::BrokenBonds left(broken.n_teeth());
       for (const auto &bond : broken.list())
         {
-          const auto middle   = middle_of(mesh, horizon, bond.nodes);
+          const auto middle   = Fracture::middle_of(mesh, horizon, bond.nodes);
           bool       replaced = false;
           for (const auto &crack : made)
             for (std::size_t k = 1; k < crack.line.size(); ++k)
@@ -151,11 +129,12 @@ namespace Perimorph::Application
           return false;
         const auto &nodal   = mesh->nodal();
         const auto  horizon = method.region.horizon;
-        const auto  made    = long_enough(Fracture::find_nucleated_cracks(
-                                        nodal,
-                                        cracks,
-                                        broken_places(nodal, horizon, broken)),
-                                      *growth.hand_over);
+        const auto  made =
+          long_enough(Fracture::find_nucleated_cracks(
+                        nodal,
+                        cracks,
+                        Fracture::broken_places(nodal, horizon, broken)),
+                      *growth.hand_over);
         if (made.empty())
           return false;
 

@@ -232,7 +232,14 @@ namespace Perimorph::Application
     const bool own  = method.region.n_core + method.region.n_blending > 0 ||
                      parameters.region.mode == Mesh::Mode::finite_elements;
     // The companion with finite elements has no cracks; those made of broken
-    // bonds have no tips.
+    // bonds have no domain integrals.
+    if (own && parameters.breaks_in_motion())
+      for (const auto &quantity :
+           post_processing->crack_advances(state.time,
+                                           method.region.horizon,
+                                           broken,
+                                           advance_history))
+        list.push_back(quantity);
     if (own && !parameters.growth.bonds)
       {
         std::map<std::string, std::string> without_room;

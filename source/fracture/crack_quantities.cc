@@ -70,7 +70,7 @@ namespace Perimorph::Fracture
     double largest = 0.;
     for (const auto &value : values)
       largest = std::max(largest, std::abs(value.J - values[0].J));
-    return largest / std::abs(values[0].J);
+    return largest > 0. ? largest / std::abs(values[0].J) : 0.;
   }
 
   std::vector<TipQuantities>

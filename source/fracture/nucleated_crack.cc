@@ -134,6 +134,28 @@ namespace Perimorph::Fracture
     }
   } // namespace
 
+  BrokenPlace
+  middle_of(const Mesh::NodalMesh<2>          &mesh,
+            const std::vector<double>         &horizon,
+            const std::array<unsigned int, 2> &nodes)
+  {
+    return {mesh.nodes[nodes[0]] +
+              0.5 * (mesh.nodes[nodes[1]] - mesh.nodes[nodes[0]]),
+            0.5 * (horizon[nodes[0]] + horizon[nodes[1]])};
+  }
+
+  std::vector<BrokenPlace>
+  broken_places(const Mesh::NodalMesh<2>  &mesh,
+                const std::vector<double> &horizon,
+                const Bonds::BrokenBonds  &broken)
+  {
+    std::vector<BrokenPlace> places;
+    for (const auto &bond : broken.list())
+      if (bond.teeth == broken.n_teeth())
+        places.push_back(middle_of(mesh, horizon, bond.nodes));
+    return places;
+  }
+
   std::vector<std::vector<BrokenPlace>>
   group_places(std::vector<BrokenPlace> places)
   {

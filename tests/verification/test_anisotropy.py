@@ -5,7 +5,8 @@ References: compliance of an off-axis lamina (Jones, Mechanics of Composite
 Materials, Eq. (2.97)); a ring of cylindrical orthotropy under pressure
 (Lekhnitskii, u = A r^k + B r^-k with k^2 = E2 / E1); pure bending off the axes,
 whose strain is the compliance times a stress linear in y, exact; strength by
-Tsai and Hill (Hattori et al. (2017), Eq. (26)) and by the largest stress.
+Tsai and Hill (Hattori et al. (2017), Eq. (26)) and by the largest stress; where a plate
+of two layers breaks (section 6.4 there).
 """
 
 import math
@@ -242,6 +243,42 @@ def interface(study):
             study.below("distance of broken bonds from it", away, 1e-12)
 
 
+def delamination(study):
+    """Bonds break along a weak interface, first of all where the crack lies below it;
+    in the softer layer where the interface is as strong as both."""
+    if not study.part("delamination", "measured"):
+        return
+    horizon = 3. * .15 / 160
+    below = "edge: -0.075 -0.005 to -0.045 -0.005"
+    for place, slit, crack in (("at the interface", .03, ""),
+                               ("below it", 0, below)):
+        for strong in (False, True):
+            changes = {
+                "Mesh/geometry parameters":
+                "nx = 160, ny = 40, slit = %g" % slit,
+                "Cracks/pre-cracks": crack,
+                "Load steps/end time": 12e-6
+            }
+            if strong:
+                changes["Cracks/interface strengths"] = ""
+            table = study.solve("delamination.prm",
+                                changes).table("broken_bonds")
+            times = {True: [math.inf], False: [math.inf]}
+            for time, y1, y2 in zip(*(table.get(name, [])
+                                      for name in ("time", "y1", "y2"))):
+                times[max(abs(y1), abs(y2)) < 1.001 * horizon].append(time)
+            n_along = len(times[True]) - 1
+            share = n_along / max(1, n_along + len(times[False]) - 1)
+            name = "crack %s, interface %s: " % (
+                place, "as strong as the layers" if strong else "weak")
+            if strong:
+                study.below(name + "share along it", share, .85)
+            else:
+                study.above(name + "share along it", share, .95)
+                study.below(name + "opens first, time ratio",
+                            min(times[True]) / min(times[False]), .8)
+
+
 def turned_in_space(study):
     """Fibres turned to y; the others follow."""
     if not study.part("turned in three dimensions", "error in u"):
@@ -281,6 +318,7 @@ def main():
     ring(study)
     strengths(study)
     interface(study)
+    delamination(study)
     turned_in_space(study)
     study.finish()
 

@@ -1,9 +1,9 @@
 """Motion: a wave in a bar, waves that meet the interface of the coupling,
-cracks under a sudden and a growing stress, and relaxation towards the static
-answer.
+cracks under a sudden and a growing stress, a crack between an inclusion and a hole,
+and relaxation towards the static answer.
 
 References: d'Alembert's solution (bar_wave.csv), the same run by finite elements
-alone (reflection), Freund's crack, the static run. --extent long adds
+alone (reflection, inclusion and hole), Freund's crack, the static run. --extent long adds
 wavelengths, schemes and cases.
 """
 
@@ -327,6 +327,49 @@ def crack_in_motion(study):
                         abs(sum(errors) / len(errors)), 1.)
 
 
+def factors_over_time(study, changes):
+    """K_I and K_II of inclusion_and_hole.prm beyond its start."""
+    table = study.solve("inclusion_and_hole.prm", changes).table("quantities")
+    return [table.get("edge_tip1_" + name, [math.nan] * 2)[1:]
+            for name in ("K_I", "K_II")]
+
+
+def inclusion_and_hole(study):
+    """Coupled against finite elements alone with a slit, on the same mesh and by the
+    same integral. What reflects differs above and below the crack, so fibres along
+    or across it do not make K_II zero."""
+    if not study.part("inclusion and hole", "%"):
+        return
+    is_long = study.arguments.extent == "long"
+    inclusion = ("inclusion: C11 = 235e9, C12 = 3.69e9, C22 = 24e9, "
+                 "C66 = 28.2e9, orientation = 0, density = 5670")
+    cases = {
+        "0 degrees": (0, "dx = 0.000125, ", {}),
+        "45 degrees": (45, "", {})
+    }
+    if is_long:
+        cases["90 degrees"] = (90, "", {})
+        cases["45 degrees, C22 = 24 GPa"] = (45, "", {
+            "Material/by volume": inclusion})
+    for name, (angle, mesh, changes) in cases.items():
+        changes = dict(changes, **{
+            "Expressions/constants": "theta = %d" % angle})
+        if not is_long:
+            changes["Load steps/end time"] = 12e-6
+            changes["Load steps/number of steps"] = 60
+        coupled = factors_over_time(study, dict(changes, **{
+            "Mesh/geometry parameters": mesh + "slit = 0"}))
+        elements = factors_over_time(study, dict(changes, **{
+            "Mode": "finite elements",
+            "Mesh/geometry parameters": mesh + "slit = 1"}))
+        for symbol, values, reference in zip(("K_I", "K_II"), coupled,
+                                             elements):
+            study.below("%s: error of %s" % (name, symbol),
+                        100. * relative_error(values, reference), 5.)
+        study.above("%s: largest K_II over largest K_I" % name,
+                    100. * max(map(abs, coupled[1])) / max(coupled[0]), 5.)
+
+
 def relaxation(study):
     """The static answer without a matrix. What is zero is compared with the
     largest number of its kind, reactions with the force that does the work;
@@ -367,6 +410,7 @@ def main():
     interface_reflection(study)
     middle_region(study)
     crack_in_motion(study)
+    inclusion_and_hole(study)
     relaxation(study)
     study.finish()
 

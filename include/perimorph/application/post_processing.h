@@ -2,6 +2,7 @@
 
 #include <perimorph/application/simulation_parameters.h>
 #include <perimorph/fem/supports.h>
+#include <perimorph/fracture/crack_advance.h>
 #include <perimorph/fracture/crack_quantities.h>
 #include <perimorph/fracture/error_norms.h>
 #include <perimorph/fracture/probes.h>
@@ -69,6 +70,17 @@ namespace Perimorph::Application
                      const Mesh::RegionMap              &region,
                      const Peridynamics::FamilySet<dim> &families,
                      std::map<std::string, std::string> &without_room) const;
+
+    /// How far bonds that broke in motion have carried the cracks from their
+    /// tips at the start, and how fast; none in 3D. The speed exists from the
+    /// second row of the history on.
+    /// @param horizon          of each node
+    /// @param[in,out] history  gets a row for this time
+    std::vector<NamedQuantity>
+    crack_advances(double                     time,
+                   const std::vector<double> &horizon,
+                   const Bonds::BrokenBonds  &broken,
+                   Fracture::AdvanceHistory  &history) const;
 
     /// At the tips of the cracks, in the order of Fracture::find_tips(); none
     /// in 3D.
@@ -166,9 +178,8 @@ namespace Perimorph::Application
     std::vector<Fracture::ReferenceData<dim>>       reference_data;
     const Bonds::CrackSet<dim>                     &cracks;
     std::vector<std::string>                        tip_names;
-    /// CrackTip::root of each name, in 2D.
-    std::vector<std::array<unsigned int, 2>> tip_roots;
-    std::vector<Fracture::MirrorPlane<dim>>  planes;
+    std::vector<Fracture::CrackTip>         first_tips; ///< in 2D, by name
+    std::vector<Fracture::MirrorPlane<dim>> planes;
 
     /// The last tip_quantities() and what they were evaluated for.
     struct Tips

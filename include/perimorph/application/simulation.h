@@ -560,6 +560,7 @@ namespace Perimorph::Application
     unsigned int steps_of_limit  = 0;
     double       energy_at_start = 0., largest_energy = 0., energy_drift = 0.;
     std::size_t  n_time_steps = 0;
+    Fracture::AdvanceHistory advance_history;
 
     // Progress, tables by name, checkpoints.
     Progress progress;

@@ -231,6 +231,13 @@ namespace Perimorph::Application
     bool
     has_anisotropic_laws() const;
 
+    /// Bonds break while the body moves.
+    bool
+    breaks_in_motion() const
+    {
+      return growth.bonds && time_integration.has_inertia();
+    }
+
     /// Times of the load steps, or of the states of a motion that are kept.
     std::vector<double>
     times() const;

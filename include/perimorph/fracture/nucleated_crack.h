@@ -1,5 +1,6 @@
 #pragma once
 
+#include <perimorph/bonds/broken_bonds.h>
 #include <perimorph/bonds/crack_set.h>
 #include <perimorph/mesh/nodal_mesh.h>
 
@@ -16,6 +17,19 @@ namespace Perimorph::Fracture
     dealii::Point<2> position;
     double           horizon;
   };
+
+  /// @param nodes    of the bond
+  /// @param horizon  of each node
+  BrokenPlace
+  middle_of(const Mesh::NodalMesh<2>          &mesh,
+            const std::vector<double>         &horizon,
+            const std::array<unsigned int, 2> &nodes);
+
+  /// Of the bonds without any stiffness left.
+  std::vector<BrokenPlace>
+  broken_places(const Mesh::NodalMesh<2>  &mesh,
+                const std::vector<double> &horizon,
+                const Bonds::BrokenBonds  &broken);
 
   /// Points in groups, each of points no further apart from the next than 1.01
   /// times the larger of their horizons. Sorted by position, so that the order
