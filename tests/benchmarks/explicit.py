@@ -12,7 +12,7 @@ from runs import ROOT, fail
 
 # Cells along an axis, and about how many steps.
 SIZES = {"small": {"plate": (100, 400), "block": (14, 100)},
-         "medium": {"plate": (200, 800), "block": (34, 100)}}
+         "medium": {"plate": (200, 800), "block": (26, 100)}}
 SIZES["large"] = SIZES["medium"]
 DIMENSION = {"plate": 2, "block": 3}
 HORIZON_RATIO = 3
