@@ -233,7 +233,7 @@ namespace Perimorph::Application
                      parameters.region.mode == Mesh::Mode::finite_elements;
     // The companion with finite elements has no cracks; those made of broken
     // bonds have no tips.
-    if (own && !parameters.growth.bonds)
+    if (own && !parameters.growth.bonds && !cracks.empty())
       {
         std::map<std::string, std::string> without_room;
         for (const auto &quantity : post_processing->crack_quantities(
