@@ -22,7 +22,10 @@ namespace Perimorph::Application
     , stepping(stepping)
     , forces(mesh, problem, supports, loads, timing)
     , by_nodes(forces, mass)
-  {}
+  {
+    if (parameters.scheme == TimeScheme::explicit_motion)
+      problem.keep_cell_stiffness();
+  }
 
   template <int dim>
   void

@@ -84,6 +84,7 @@ namespace Perimorph::Application
       return method.equilibrium->solve(time, method.displacement, report);
     if (!method.relaxation)
       {
+        method.problem->keep_cell_stiffness();
         method.forces =
           std::make_unique<Solvers::NodalForces<dim>>(*mesh,
                                                       *method.problem,

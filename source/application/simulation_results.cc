@@ -240,7 +240,7 @@ namespace Perimorph::Application
                                            broken,
                                            advance_history))
         list.push_back(quantity);
-    if (own && !parameters.growth.bonds)
+    if (own && !parameters.growth.bonds && !cracks.empty())
       {
         std::map<std::string, std::string> without_room;
         for (const auto &quantity : post_processing->crack_quantities(

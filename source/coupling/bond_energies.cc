@@ -55,7 +55,8 @@ namespace Perimorph::Coupling
                 const MPI_Comm                             communicator)
   {
     std::vector<Half>                   halves;
-    std::vector<dealii::Tensor<1, dim>> xi, eta, forces;
+    std::vector<dealii::Tensor<1, dim>> xi, eta;
+    std::vector<double>                 forces;
     for (std::size_t p = 0; p < families.n_particles(); ++p)
       {
         const unsigned int node  = families.node[p];
@@ -63,31 +64,40 @@ namespace Perimorph::Coupling
         const std::size_t  n     = families.offsets[p + 1] - begin;
         xi.resize(n);
         eta.resize(n);
-        forces.resize(n);
+        forces.resize(dim * n);
         for (std::size_t b = 0; b < n; ++b)
           {
             const unsigned int other = families.neighbor[begin + b];
             xi[b]                    = mesh.nodes[other] - mesh.nodes[node];
             eta[b]                   = displacement[other] - displacement[node];
           }
-        const Peridynamics::Family<dim> family{
-          static_cast<unsigned int>(n),
-          static_cast<unsigned int>(n),
-          xi.data(),
-          families.gradient_weight.data() + begin,
-          families.bond_weight.data() + begin,
-          families.stabilization[p]};
-        const auto H = displacement_gradient(family, eta.data());
+        using Peridynamics::by_components;
+        const auto xi_list  = by_components(xi.data(), n);
+        const auto eta_list = by_components(eta.data(), n);
+        const auto g_list =
+          by_components(families.gradient_weight.data() + begin, n);
+        const Peridynamics::Family<dim> family{static_cast<unsigned int>(n),
+                                               static_cast<unsigned int>(n),
+                                               n,
+                                               xi_list.data(),
+                                               g_list.data(),
+                                               families.bond_weight.data() +
+                                                 begin,
+                                               families.stabilization[p]};
+        const auto H = displacement_gradient(family, eta_list.data());
         family_forces(family,
-                      eta.data(),
+                      eta_list.data(),
                       H,
                       laws[families.material[p]]->first_piola_kirchhoff(H),
                       forces.data());
         for (std::size_t b = 0; b < n; ++b)
           {
             const unsigned int other = families.neighbor[begin + b];
+            double             work  = 0.;
+            for (int d = 0; d < dim; ++d)
+              work += forces[d * n + b] * eta[b][d];
             halves.push_back({{{std::min(node, other), std::max(node, other)}},
-                              0.5 * families.weight[p] * (forces[b] * eta[b])});
+                              0.5 * families.weight[p] * work});
           }
       }
     return of_all_ranks(halves, communicator);

@@ -1,8 +1,10 @@
+#include <perimorph/base/lanes.h>
 #include <perimorph/coupling/correspondence_term.h>
 #include <perimorph/materials/extrapolated_stress.h>
 
 #include <algorithm>
 #include <numeric>
+#include <type_traits>
 
 namespace Perimorph::Coupling
 {
@@ -14,6 +16,10 @@ namespace Perimorph::Coupling
     : families(std::move(families_))
     , materials(materials)
   {
+    const std::size_t n_bonds = families.n_bonds();
+    gradient_weight =
+      Peridynamics::by_components(families.gradient_weight.data(), n_bonds);
+    families.gradient_weight = {};
     n_gradient_bonds.resize(families.n_particles());
     for (unsigned int p = 0; p < families.n_particles(); ++p)
       sort_bonds(p);
@@ -21,52 +27,59 @@ namespace Perimorph::Coupling
       node = partition.local(node);
     for (auto &node : families.neighbor)
       node = partition.local(node);
-    xi.reserve(families.n_bonds());
+    xi.resize(dim * n_bonds);
     for (std::size_t p = 0; p < families.n_particles(); ++p)
       {
         position.push_back(partition.position(families.node[p]));
         largest_family =
           std::max<unsigned int>(largest_family,
                                  families.offsets[p + 1] - families.offsets[p]);
-        for (std::size_t b = families.offsets[p]; b < families.offsets[p + 1];
-             ++b)
-          xi.push_back(partition.position(families.neighbor[b]) -
-                       partition.position(families.node[p]));
+        find_bond_vectors(p, partition);
       }
+  }
+
+  template <int dim>
+  void
+  CorrespondenceTerm<dim>::find_bond_vectors(
+    const unsigned int             particle,
+    const Fem::NodePartition<dim> &partition)
+  {
+    for (std::size_t b = families.offsets[particle];
+         b < families.offsets[particle + 1];
+         ++b)
+      for (int d = 0; d < dim; ++d)
+        xi[d * families.n_bonds() + b] =
+          partition.position(families.neighbor[b])[d] - position[particle][d];
   }
 
   template <int dim>
   void
   CorrespondenceTerm<dim>::sort_bonds(const unsigned int particle)
   {
-    const auto has_gradient = [](const dealii::Tensor<1, dim> &weight) {
-      return weight.norm_square() > 0.;
+    const std::size_t        first = families.offsets[particle];
+    std::vector<std::size_t> order(families.offsets[particle + 1] - first);
+    std::iota(order.begin(), order.end(), 0);
+    const auto has_gradient = [&](const std::size_t k) {
+      for (int d = 0; d < dim; ++d)
+        if (gradient_weight[d * families.n_bonds() + first + k] != 0.)
+          return true;
+      return false;
     };
-    const std::size_t first = families.offsets[particle];
-    const auto        begin = families.gradient_weight.begin() + first;
-    const auto        end =
-      families.gradient_weight.begin() + families.offsets[particle + 1];
-    // Gradients over the horizon have nothing to move.
-    if (!std::is_partitioned(begin, end, has_gradient))
-      {
-        std::vector<std::size_t> order(end - begin);
-        std::iota(order.begin(), order.end(), 0);
-        std::stable_partition(
-          order.begin(),
-          order.end(),
-          [&](const std::size_t k) { return has_gradient(begin[k]); });
-        const auto reorder = [&](auto &list) {
-          const auto row = std::vector(list.begin() + first,
-                                       list.begin() + first + order.size());
-          for (std::size_t k = 0; k < order.size(); ++k)
-            list[first + k] = row[order[k]];
-        };
-        reorder(families.neighbor);
-        reorder(families.bond_weight);
-        reorder(families.gradient_weight);
-      }
     n_gradient_bonds[particle] =
-      std::partition_point(begin, end, has_gradient) - begin;
+      std::count_if(order.begin(), order.end(), has_gradient);
+    // Gradients over the horizon have nothing to move.
+    if (std::is_partitioned(order.begin(), order.end(), has_gradient))
+      return;
+    std::stable_partition(order.begin(), order.end(), has_gradient);
+    const auto reorder = [&](auto begin) {
+      const auto row = std::vector(begin, begin + order.size());
+      for (std::size_t k = 0; k < order.size(); ++k)
+        begin[k] = row[order[k]];
+    };
+    reorder(families.neighbor.begin() + first);
+    reorder(families.bond_weight.begin() + first);
+    for (int d = 0; d < dim; ++d)
+      reorder(gradient_weight.begin() + d * families.n_bonds() + first);
   }
 
   template <int dim>
@@ -92,12 +105,12 @@ namespace Perimorph::Coupling
         families.neighbor[b]    = is_left ? partition.local(remains.neighbor[k])
                                           : families.node[particle];
         families.bond_weight[b] = is_left ? remains.bond_weight[k] : 0.;
-        families.gradient_weight[b] =
-          is_left ? remains.gradient_weight[k] : dealii::Tensor<1, dim>();
+        for (int d = 0; d < dim; ++d)
+          gradient_weight[d * families.n_bonds() + b] =
+            is_left ? remains.gradient_weight[k][d] : 0.;
       }
     sort_bonds(particle);
-    for (std::size_t b = first; b < families.offsets[particle + 1]; ++b)
-      xi[b] = partition.position(families.neighbor[b]) - position[particle];
+    find_bond_vectors(particle, partition);
   }
 
   template <int dim>
@@ -109,6 +122,11 @@ namespace Perimorph::Coupling
     for (auto *list : {&result.node, &result.neighbor})
       for (unsigned int &node : *list)
         node = partition.global(node);
+    result.gradient_weight.resize(families.n_bonds());
+    for (std::size_t b = 0; b < families.n_bonds(); ++b)
+      for (int d = 0; d < dim; ++d)
+        result.gradient_weight[b][d] =
+          gradient_weight[d * families.n_bonds() + b];
     return result;
   }
 
@@ -136,41 +154,66 @@ namespace Perimorph::Coupling
     const std::size_t first = families.offsets[particle];
     return {static_cast<unsigned int>(families.offsets[particle + 1] - first),
             n_gradient_bonds[particle],
+            families.n_bonds(),
             xi.data() + first,
-            families.gradient_weight.data() + first,
+            gradient_weight.data() + first,
             families.bond_weight.data() + first,
             families.stabilization[particle]};
   }
 
   template <int dim>
   void
-  CorrespondenceTerm<dim>::relative_displacements(
-    const unsigned int      particle,
-    const double           *vector,
-    dealii::Tensor<1, dim> *eta) const
+  CorrespondenceTerm<dim>::relative_displacements(const unsigned int particle,
+                                                  const double      *vector,
+                                                  double            *eta) const
   {
     const auto        own   = this->value_at(vector, families.node[particle]);
     const std::size_t first = families.offsets[particle];
     const std::size_t n     = families.offsets[particle + 1] - first;
     for (std::size_t b = 0; b < n; ++b)
-      eta[b] = this->value_at(vector, families.neighbor[first + b]) - own;
+      {
+        const double *value = vector + dim * families.neighbor[first + b];
+        for (int d = 0; d < dim; ++d)
+          eta[d * n + b] = value[d] - own[d];
+      }
   }
 
   template <int dim>
   void
-  CorrespondenceTerm<dim>::scatter(const unsigned int            particle,
-                                   const dealii::Tensor<1, dim> *forces,
-                                   double                       *vector) const
+  CorrespondenceTerm<dim>::scatter(const unsigned int   particle,
+                                   std::vector<double> &forces,
+                                   double              *vector) const
   {
     const double           weight = families.weight[particle];
     const std::size_t      first  = families.offsets[particle];
-    const std::size_t      n      = families.offsets[particle + 1] - first;
+    const unsigned int     n      = families.offsets[particle + 1] - first;
     dealii::Tensor<1, dim> sum;
-    for (std::size_t b = 0; b < n; ++b)
+    for (int d = 0; d < dim; ++d)
       {
-        const auto force = weight * forces[b];
-        sum += force;
-        this->add_at(vector, families.neighbor[first + b], force);
+        double          *row      = forces.data() + d * n;
+        Base::EightLanes of_eight = {};
+        Base::FourLanes  of_four  = {};
+        Base::for_lanes(
+          n,
+          [&](const unsigned int b, const auto zero) DEAL_II_ALWAYS_INLINE {
+            using Lanes       = std::decay_t<decltype(zero)>;
+            const Lanes force = weight * Base::load_lanes<Lanes>(row + b);
+            Base::store_lanes(force, row + b);
+            if constexpr (std::is_same_v<Lanes, Base::EightLanes>)
+              of_eight += force;
+            else if constexpr (std::is_same_v<Lanes, Base::FourLanes>)
+              of_four += force;
+            else
+              sum[d] += force;
+          });
+        sum[d] += Base::sum_of_lanes(of_four + Base::fold_lanes(of_eight));
+      }
+    for (unsigned int b = 0; b < n; ++b)
+      {
+        const unsigned int neighbor   = families.neighbor[first + b];
+        const double       row_weight = this->row_weight(neighbor);
+        for (int d = 0; d < dim; ++d)
+          vector[dim * neighbor + d] += row_weight * forces[d * n + b];
       }
     this->add_at(vector, families.node[particle], -sum);
   }
@@ -179,8 +222,8 @@ namespace Perimorph::Coupling
   double
   CorrespondenceTerm<dim>::energy(const Vector &displacement) const
   {
-    std::vector<dealii::Tensor<1, dim>> eta(largest_family);
-    double                              sum = 0.;
+    std::vector<double> eta(dim * largest_family);
+    double              sum = 0.;
     for (unsigned int p = 0; p < families.n_particles(); ++p)
       {
         relative_displacements(p, displacement.begin(), eta.data());
@@ -198,11 +241,18 @@ namespace Perimorph::Coupling
   CorrespondenceTerm<dim>::add_residual(const Vector &displacement,
                                         Vector       &residual) const
   {
-    std::vector<dealii::Tensor<1, dim>> eta(largest_family);
-    std::vector<dealii::Tensor<1, dim>> forces(largest_family);
+    std::vector<double> eta(dim * largest_family);
+    std::vector<double> next_eta(dim * largest_family);
+    std::vector<double> forces(dim * largest_family);
+    if (families.n_particles() > 0)
+      relative_displacements(0, displacement.begin(), next_eta.data());
     for (unsigned int p = 0; p < families.n_particles(); ++p)
       {
-        relative_displacements(p, displacement.begin(), eta.data());
+        // One family ahead: lanes that are read wait until what was written to
+        // them one by one is in the cache.
+        eta.swap(next_eta);
+        if (p + 1 < families.n_particles())
+          relative_displacements(p + 1, displacement.begin(), next_eta.data());
         const auto             one = family(p);
         const auto             H   = displacement_gradient(one, eta.data());
         dealii::Tensor<2, dim> P;
@@ -210,7 +260,7 @@ namespace Perimorph::Coupling
           P = materials[families.material[p]]->first_piola_kirchhoff(H);
         });
         family_forces(one, eta.data(), H, P, forces.data());
-        scatter(p, forces.data(), residual.begin());
+        scatter(p, forces, residual.begin());
       }
   }
 
@@ -220,14 +270,17 @@ namespace Perimorph::Coupling
                                                const Vector &direction,
                                                Vector       &product) const
   {
-    std::vector<dealii::Tensor<1, dim>> eta(largest_family);
-    std::vector<dealii::Tensor<1, dim>> forces(largest_family);
+    std::vector<double>                 eta(dim * largest_family);
+    std::vector<double>                 forces(dim * largest_family);
     const bool                          linear = is_linear();
     std::vector<dealii::Tensor<4, dim>> constant_tangent;
     if (linear)
       for (const auto &material : materials)
         constant_tangent.push_back(material->tangent(dealii::Tensor<2, dim>()));
 
+    std::vector<double> next_eta(dim * largest_family);
+    if (families.n_particles() > 0)
+      relative_displacements(0, direction.begin(), next_eta.data());
     for (unsigned int p = 0; p < families.n_particles(); ++p)
       {
         const auto one      = family(p);
@@ -241,11 +294,13 @@ namespace Perimorph::Coupling
             relative_displacements(p, displacement.begin(), eta.data());
             A = particle_tangent(p, displacement_gradient(one, eta.data()));
           }
-        relative_displacements(p, direction.begin(), eta.data());
+        eta.swap(next_eta);
+        if (p + 1 < families.n_particles())
+          relative_displacements(p + 1, direction.begin(), next_eta.data());
         const auto dH = displacement_gradient(one, eta.data());
         const auto dP = dealii::double_contract<2, 0, 3, 1>(A, dH);
         family_forces(one, eta.data(), dH, dP, forces.data());
-        scatter(p, forces.data(), product.begin());
+        scatter(p, forces, product.begin());
       }
   }
 
@@ -274,7 +329,7 @@ namespace Perimorph::Coupling
     const Vector               &displacement,
     dealii::FullMatrix<double> &matrix) const
   {
-    std::vector<dealii::Tensor<1, dim>> eta(largest_family);
+    std::vector<double> eta(dim * largest_family);
     relative_displacements(block, displacement.begin(), eta.data());
     const auto one = family(block);
     const auto H   = displacement_gradient(one, eta.data());
@@ -302,7 +357,7 @@ namespace Perimorph::Coupling
     extrapolated.clear();
     if (is_linear())
       return;
-    std::vector<dealii::Tensor<1, dim>> eta(largest_family);
+    std::vector<double> eta(dim * largest_family);
     for (unsigned int p = 0; p < families.n_particles(); ++p)
       {
         const auto one = family(p);

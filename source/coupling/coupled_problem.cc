@@ -82,6 +82,33 @@ namespace Perimorph::Coupling
 
   template <int dim>
   void
+  CoupledProblem<dim>::keep_cell_stiffness()
+  {
+    if (cell_stiffness)
+      return;
+    std::vector<const Term *> cells;
+    for (const auto &term : contributions)
+      if (Fem::CellStiffness<dim>::can_hold(*term))
+        cells.push_back(term.get());
+    Vector at_rest;
+    partition().initialize(at_rest);
+    cell_stiffness = std::make_unique<Fem::CellStiffness<dim>>(cells, at_rest);
+  }
+
+  template <int dim>
+  void
+  CoupledProblem<dim>::remove_cells(const std::vector<bool> &goes)
+  {
+    if (auto *cells = find_term<Fem::ElasticCells<dim>>())
+      cells->remove(goes);
+    if (auto *segments = find_term<SegmentTerm<dim>>())
+      segments->remove(goes);
+    if (cell_stiffness)
+      cell_stiffness->remove(goes);
+  }
+
+  template <int dim>
+  void
   CoupledProblem<dim>::internal_forces(const Vector &displacement,
                                        Vector       &forces) const
   {
@@ -89,9 +116,25 @@ namespace Perimorph::Coupling
     forces = 0.;
     Base::collectively(mesh.communicator(), [&]() {
       for (const auto &term : contributions)
-        term->add_residual(displacement, forces);
+        if (!is_kept(*term))
+          term->add_residual(displacement, forces);
+      if (cell_stiffness)
+        cell_stiffness->add_product(displacement, forces);
     });
     forces.compress(dealii::VectorOperation::add);
+  }
+
+  template <int dim>
+  void
+  CoupledProblem<dim>::add_tangent_product(const Vector &displacement,
+                                           const Vector &direction,
+                                           Vector       &product) const
+  {
+    for (const auto &term : contributions)
+      if (!is_kept(*term))
+        term->add_tangent_product(displacement, direction, product);
+    if (cell_stiffness)
+      cell_stiffness->add_product(direction, product);
   }
 
   template <int dim>

@@ -100,12 +100,8 @@ namespace Perimorph::Coupling
                        global.end();
             });
           });
-        if (!some_cell_goes)
-          return;
-        if (auto *cells = problem.template find_term<Fem::ElasticCells<dim>>())
-          cells->remove(goes);
-        if (auto *segments = problem.template find_term<SegmentTerm<dim>>())
-          segments->remove(goes);
+        if (some_cell_goes)
+          problem.remove_cells(goes);
       }
 
     private:

@@ -99,8 +99,7 @@ namespace Perimorph::Solvers
     product = 0.;
     displacement.update_ghost_values();
     direction.update_ghost_values();
-    for (const auto *term : problem.terms())
-      term->add_tangent_product(displacement, direction, product);
+    problem.add_tangent_product(displacement, direction, product);
     product.compress(dealii::VectorOperation::add);
     direction.zero_out_ghost_values();
     displacement.zero_out_ghost_values();

@@ -4,6 +4,7 @@ import math
 import os
 
 from cases import CASES, crack, error, hole
+from explicit import row_15
 from runs import Run
 
 # Cells along a half of the hole (plate) or a quarter circle (cavity) per size,
@@ -422,4 +423,4 @@ def compare_refined(rows, what, limit, found, quantity):
 ROWS = {"row_1": row_1, "row_2": row_2, "row_3": row_3, "row_4": row_4,
         "row_5": row_5, "row_6": row_6, "row_7": row_7, "row_8": row_8,
         "row_9": row_9, "row_10": row_10, "row_11": row_11, "row_12": row_12,
-        "row_14": row_14}
+        "row_14": row_14, "row_15": row_15}

@@ -126,6 +126,16 @@ namespace Perimorph::Coupling
     void
     block_nodes(unsigned int               block,
                 std::vector<unsigned int> &nodes) const override;
+    bool
+    has_cells() const override
+    {
+      return true;
+    }
+    unsigned int
+    block_cell(const unsigned int block) const override
+    {
+      return cells[block];
+    }
     void
     block_tangent(unsigned int                block,
                   const Vector               &displacement,

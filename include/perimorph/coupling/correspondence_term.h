@@ -71,27 +71,36 @@ namespace Perimorph::Coupling
     Peridynamics::Family<dim>
     family(unsigned int particle) const;
 
-    /// Relative displacements of the bonds of a particle.
+    /// Relative displacements of the bonds of a particle, one array per
+    /// component.
     void
-    relative_displacements(unsigned int            particle,
-                           const double           *vector,
-                           dealii::Tensor<1, dim> *eta) const;
+    relative_displacements(unsigned int  particle,
+                           const double *vector,
+                           double       *eta) const;
 
+    /// @param forces  per unit weight, as the family has them; are changed
     void
-    scatter(unsigned int                  particle,
-            const dealii::Tensor<1, dim> *forces,
-            double                       *vector) const;
+    scatter(unsigned int         particle,
+            std::vector<double> &forces,
+            double              *vector) const;
+
+    /// Sets xi of a particle.
+    void
+    find_bond_vectors(unsigned int                   particle,
+                      const Fem::NodePartition<dim> &partition);
 
     /// Moves the bonds of a family without a gradient weight to its end.
     void
     sort_bonds(unsigned int particle);
 
-    Peridynamics::FamilySet<dim>        families;         ///< local nodes
-    std::vector<unsigned int>           n_gradient_bonds; ///< per particle
-    std::vector<dealii::Tensor<1, dim>> xi;               ///< one per bond
-    std::vector<dealii::Point<dim>>     position;         ///< one per particle
-    const MaterialList                 &materials;
-    unsigned int                        largest_family = 0;
+    /// With local nodes, without gradient weights.
+    Peridynamics::FamilySet<dim> families;
+    std::vector<unsigned int>    n_gradient_bonds; ///< per particle
+    /// Of the bonds, one array per component (Peridynamics::Family).
+    std::vector<double>             xi, gradient_weight;
+    std::vector<dealii::Point<dim>> position; ///< one per particle
+    const MaterialList             &materials;
+    unsigned int                    largest_family = 0;
     /// Per particle; empty: none.
     std::vector<dealii::Tensor<2, dim>> extrapolated;
   };

@@ -3,6 +3,7 @@
 #include <perimorph/bonds/broken_bonds.h>
 #include <perimorph/coupling/bond_set.h>
 #include <perimorph/coupling/consistent_families.h>
+#include <perimorph/fem/cell_stiffness.h>
 #include <perimorph/fem/elastic_cells.h>
 #include <perimorph/fem/nodal_springs.h>
 #include <perimorph/mesh/region_map.h>
@@ -218,11 +219,27 @@ namespace Perimorph::Coupling
     bool
     is_symmetric() const;
 
+    /// For runs that evaluate forces very often: from now on the stiffness of
+    /// cells that are linear is kept (Fem::CellStiffness).
+    void
+    keep_cell_stiffness();
+
+    /// Cells lose their work, by their numbers in the mesh.
+    void
+    remove_cells(const std::vector<bool> &goes);
+
     /// Internal forces into a vector with ghosts; exchanged and complete.
     /// @throws Base::InadmissibleState  on all ranks
     /// @param displacement  ghosts up to date
     void
     internal_forces(const Vector &displacement, Vector &forces) const;
+
+    /// Adds the tangent of all terms at a displacement times a direction, also
+    /// into ghost entries.
+    void
+    add_tangent_product(const Vector &displacement,
+                        const Vector &direction,
+                        Vector       &product) const;
 
     /// Contribution::extrapolate_stress() of all terms; part of the solution
     /// procedure, not of the problem.
@@ -339,17 +356,25 @@ namespace Perimorph::Coupling
                const Bonds::BrokenBonds   &broken,
                const Progress             &progress);
 
-    const Mesh::DistributedMesh<dim>       &mesh;
-    const BodyMaterials<dim>               &materials;
-    std::vector<unsigned int>               more_nodes;
-    SharedParts<dim>                        parts_to_share;
-    std::vector<std::shared_ptr<Term>>      contributions;
-    std::vector<const Term *>               of_particles;
-    bool                                    families_exist = false;
-    std::shared_ptr<Fem::ElasticCells<dim>> preconditioner;
-    std::shared_ptr<Fem::NodalSprings<dim>> inertia; ///< or none
-    BondSet                                 bond_set;
-    Counts                                  local_counts;
-    CrackReport                             cracked;
+    /// Whether the cell stiffness that is kept stands for a term.
+    bool
+    is_kept(const Term &term) const
+    {
+      return cell_stiffness && Fem::CellStiffness<dim>::can_hold(term);
+    }
+
+    const Mesh::DistributedMesh<dim>        &mesh;
+    const BodyMaterials<dim>                &materials;
+    std::vector<unsigned int>                more_nodes;
+    SharedParts<dim>                         parts_to_share;
+    std::vector<std::shared_ptr<Term>>       contributions;
+    std::vector<const Term *>                of_particles;
+    bool                                     families_exist = false;
+    std::shared_ptr<Fem::ElasticCells<dim>>  preconditioner;
+    std::shared_ptr<Fem::NodalSprings<dim>>  inertia;        ///< or none
+    std::unique_ptr<Fem::CellStiffness<dim>> cell_stiffness; ///< or none
+    BondSet                                  bond_set;
+    Counts                                   local_counts;
+    CrackReport                              cracked;
   };
 } // namespace Perimorph::Coupling

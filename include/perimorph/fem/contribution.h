@@ -59,6 +59,22 @@ namespace Perimorph::Fem
       return false;
     }
 
+    /// Blocks are cells of the mesh, each at most once, with the nodes in their
+    /// order there.
+    virtual bool
+    has_cells() const
+    {
+      return false;
+    }
+
+    /// Number in the mesh of the cell of a block, if it has_cells().
+    virtual unsigned int
+    block_cell(const unsigned int /*block*/) const
+    {
+      AssertThrow(false, dealii::ExcInternalError());
+      return 0;
+    }
+
     /// Tangent of one block, rows and columns dim * (position in block_nodes) +
     /// component; row weights are applied by the caller.
     virtual void

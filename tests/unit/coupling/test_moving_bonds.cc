@@ -74,10 +74,11 @@ namespace Perimorph::Coupling
       const Setup        setup(model);
       Bonds::BrokenBonds broken(1);
       auto               problem = setup.problem(broken);
-      const auto        &nodal   = setup.mesh.nodal();
-      std::vector<bool>  is_protected(nodal.n_nodes(), false);
-      const auto         mass = Fem::lumped_mass<2>(nodal, {1.});
-      Damage::Limits     limits;
+      problem.keep_cell_stiffness();
+      const auto       &nodal = setup.mesh.nodal();
+      std::vector<bool> is_protected(nodal.n_nodes(), false);
+      const auto        mass = Fem::lumped_mass<2>(nodal, {1.});
+      Damage::Limits    limits;
       limits.stretch = 0.3;
       const auto rule =
         Damage::make_saw_tooth_rule<2>(limits,
