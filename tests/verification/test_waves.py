@@ -328,7 +328,8 @@ def crack_in_motion(study):
 
 def factor_errors(study, angle, n, changes, reference):
     """Relative L2 errors in % over time: of K_I, of K_II (fibres along an axis:
-    K_II over K_I) and of K_I by opening."""
+    K_II over K_I) and of K_I by opening; largest difference of J between two
+    domains in %, from a sixth of the time on."""
     table = study.solve(
         COMPOSITE_CRACK,
         dict({"Material/orientation": angle,
@@ -341,19 +342,22 @@ def factor_errors(study, angle, n, changes, reference):
     times = table.get("time", [])
     if len(times) != len(rows) or any(
             abs(time - row[1]) > 1e-12 for time, row in zip(times, rows)):
-        return [math.nan] * 3
+        return [math.nan] * 4
     K_I, K_II = ([row[k] for row in rows] for k in (2, 3))
     size = root_mean_square(K_I if angle in AXES_OF_FIBRES else K_II)
     return [
         100. * relative_error(table["edge_tip1_K_I"], K_I),
         100. * root_mean_square([
             a - b for a, b in zip(table["edge_tip1_K_II"], K_II)]) / size,
-        100. * relative_error(table["edge_tip1_K_I_opening"], K_I)]
+        100. * relative_error(table["edge_tip1_K_I_opening"], K_I),
+        100. * max(table["edge_tip1_domain_dependence"][len(rows) // 6:])]
 
 
 def crack_in_composite(study):
-    """2.5 % at 200 cells; errors fall as the spacing, so 5 % at 100. The
-    opening is a check with three times the error."""
+    """K_I within 2.5 %, K_II at 200 cells; its errors fall as the spacing, so 5 %
+    at 100. The opening is a check with three times the error of K_II. Summed with
+    other weights than the masses, J differs by 2.7 % (45 degrees) and 30 % (90)
+    between the domains."""
     if not study.part("edge crack in a composite", "%"):
         return
     is_long = study.arguments.extent == "long"
@@ -374,10 +378,12 @@ def crack_in_composite(study):
                 label = "%d degrees, %s, %d cells: " % (angle, name, n)
                 if n >= 100:
                     limit = 2.5 * 200 / n
-                    study.below(label + "K_I", errors[0], limit)
+                    study.below(label + "K_I", errors[0], 2.5)
                     study.below(label + "K_II", errors[1], limit)
                     study.below(label + "K_I by opening", errors[2],
                                 3. * limit)
+                    study.below(label + "domain dependence of J", errors[3],
+                                2.)
                 if before and errors[1] > 1e-6:
                     for k, factor in enumerate(("K_I", "K_II")):
                         study.below(label + factor +
