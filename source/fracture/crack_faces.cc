@@ -59,6 +59,8 @@ namespace Perimorph::Fracture
     const bool bent = is_bent(tip);
     for (auto &point : set.points)
       point.branch = bent ? branch_sign(tip, point.x) : 1.;
+    for (auto &point : set.force_points)
+      point.branch = bent ? branch_sign(tip, point.owner) : 1.;
     if (!bent)
       return;
 

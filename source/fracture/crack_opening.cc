@@ -1,22 +1,33 @@
 #include <perimorph/fracture/crack_opening.h>
 #include <perimorph/fracture/crack_tips.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace Perimorph::Fracture
 {
+  double
+  nearest_place(const double length,
+                const double horizon,
+                const bool   is_accelerated)
+  {
+    const double at_rest = 0.15 * length;
+    return is_accelerated ? std::min(at_rest, 0.4 * std::sqrt(horizon * length))
+                          : at_rest;
+  }
+
   template <int dim>
   OpeningFactors
   factors_from_opening(const DisplacementFit<dim>                &fit,
                        const std::vector<dealii::Tensor<1, dim>> &displacement,
                        const TipFrame<dim>                       &tip,
-                       const double                               length,
+                       const double                               nearest,
                        const NearTipConstants                    &constants,
                        const std::vector<dealii::Point<dim>>     &path)
   {
     constexpr unsigned int n_places = 16;
-    constexpr double       nearest = 0.15, farthest = 0.6;
+    const double           farthest = 4. * nearest;
     // Of the faces from the crack, in spacings.
     constexpr double offset = 1e-6;
     const double     pi     = std::acos(-1.);
@@ -27,8 +38,7 @@ namespace Perimorph::Fracture
     dealii::Tensor<1, 2> sum, sum_times_r;
     for (unsigned int k = 0; k < n_places; ++k)
       {
-        const double r =
-          length * (nearest + (farthest - nearest) * (k + 0.5) / n_places);
+        const double r = nearest + (farthest - nearest) * (k + 0.5) / n_places;
         const auto   middle  = place_behind(tip, path, r);
         const double spacing = fit.length_at(middle);
         const auto   upper   = fit.fit(middle + offset * spacing * tip.axes[1],

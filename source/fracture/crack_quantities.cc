@@ -1,5 +1,6 @@
 #include <perimorph/fracture/crack_faces.h>
 #include <perimorph/fracture/crack_quantities.h>
+#include <perimorph/fracture/force_points.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -47,8 +48,17 @@ namespace Perimorph::Fracture
       else
         {
           add_element_points(cracked.body, cracked.alpha, region, set);
-          add_family_points(cracked.body, *cracked.families, region, set);
+          add_family_points(cracked.body,
+                            cracked.cracks,
+                            *cracked.families,
+                            region,
+                            set);
         }
+      add_force_points(cracked.body,
+                       cracked.meshed ? Bonds::CrackSet<dim>() : cracked.cracks,
+                       fit,
+                       region,
+                       set);
       return set;
     }
 
@@ -121,12 +131,15 @@ namespace Perimorph::Fracture
         constexpr double missing = std::numeric_limits<double>::quiet_NaN();
         result.opening           = {missing, missing, 0};
         if (constants && length > 5. * around.spacing)
-          result.opening = factors_from_opening(*fit,
-                                                cracked.body.displacement,
-                                                tip.frame,
-                                                length,
-                                                *constants,
-                                                tip.path);
+          result.opening = factors_from_opening(
+            *fit,
+            cracked.body.displacement,
+            tip.frame,
+            nearest_place(length,
+                          std::max(around.horizon, 2. * around.spacing),
+                          !cracked.body.stress_divergence.empty()),
+            *constants,
+            tip.path);
         all.push_back(std::move(result));
       }
     return all;

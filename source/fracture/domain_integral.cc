@@ -111,7 +111,9 @@ namespace Perimorph::Fracture
     /// Mean of the derivative of an auxiliary displacement along the direction
     /// of advance over the square (cube) around a place: squares closer to the
     /// tip than twice their side are divided, the smallest at the tip left out
-    /// (2^-8 of the mean of 1 / r, the strongest singularity).
+    /// (2^-8 of the mean of 1 / r, the strongest singularity). The field of the
+    /// owner's side is continued past the crack.
+    /// @param height  of the owner over the line of the crack
     template <int dim>
     dealii::Tensor<1, dim>
     mean_slope(const NearTipField            field,
@@ -120,12 +122,19 @@ namespace Perimorph::Fracture
                const dealii::Point<dim>     &place,
                const double                  side,
                const dealii::Tensor<1, dim> &direction,
+               const double                  height,
                const unsigned int            n_divisions = 8)
     {
       const auto away = place - frame.origin;
       if (std::hypot(away * frame.axes[0], away * frame.axes[1]) >= 2. * side)
-        return near_tip_state(field, constants, frame, place).gradient *
-               direction;
+        {
+          const auto slope =
+            near_tip_state(field, constants, frame, place).gradient * direction;
+          const bool is_beyond = changes_sign(field, -1.) &&
+                                 away * frame.axes[0] < 0. &&
+                                 (away * frame.axes[1]) * height < 0.;
+          return is_beyond ? -slope : slope;
+        }
       dealii::Tensor<1, dim> mean;
       if (n_divisions > 0)
         for (const double x : {-0.25, 0.25})
@@ -138,15 +147,9 @@ namespace Perimorph::Fracture
                          place + side * (x * frame.axes[0] + y * frame.axes[1]),
                          0.5 * side,
                          direction,
+                         height,
                          n_divisions - 1);
       return mean;
-    }
-
-    template <int dim>
-    bool
-    has_force(const StressPoint<dim> &point)
-    {
-      return point.q != 0. && point.stress_divergence.norm_square() != 0.;
     }
 
     /// True for points that no integral feels.
@@ -154,7 +157,7 @@ namespace Perimorph::Fracture
     bool
     is_without_share(const StressPoint<dim> &point)
     {
-      return point.q_gradient.norm_square() == 0. && !has_force(point) &&
+      return point.q_gradient.norm_square() == 0. &&
              (dim == 2 || point.q == 0.);
     }
 
@@ -166,8 +169,7 @@ namespace Perimorph::Fracture
     {
       const auto u_along = point.displacement_gradient * direction;
       return point.volume *
-             (u_along * (point.first_piola_kirchhoff * point.q_gradient +
-                         point.q * point.stress_divergence) -
+             (u_along * (point.first_piola_kirchhoff * point.q_gradient) -
               point.energy_density * (point.q_gradient * direction));
     }
 
@@ -183,14 +185,6 @@ namespace Perimorph::Fracture
       const auto &P     = point.first_piola_kirchhoff;
       const auto &slope = point.q_gradient;
       double      sum   = 0.;
-      if (has_force(point))
-        sum += point.q * (point.stress_divergence *
-                          mean_slope(field,
-                                     constants,
-                                     frame,
-                                     point.x,
-                                     std::pow(point.volume, 1. / dim),
-                                     direction));
       if (slope.norm_square() != 0. || frame.curvature != 0.)
         {
           const auto other = near_tip_state(field, constants, frame, point.x);
@@ -203,6 +197,28 @@ namespace Perimorph::Fracture
         }
       return changes_sign(field, point.branch) ? -point.volume * sum
                                                : point.volume * sum;
+    }
+
+    /// The same of the divergence of the stress.
+    template <int dim>
+    double
+    interaction(const ForcePoint<dim>        &point,
+                const NearTipField            field,
+                const NearTipConstants       &constants,
+                const TipFrame<dim>          &frame,
+                const dealii::Tensor<1, dim> &direction)
+    {
+      const double share =
+        point.volume * point.q *
+        (point.stress_divergence *
+         mean_slope(field,
+                    constants,
+                    frame,
+                    point.x,
+                    point.width,
+                    direction,
+                    (point.owner - frame.origin) * frame.axes[1]));
+      return changes_sign(field, point.branch) ? -share : share;
     }
   } // namespace
 
@@ -225,6 +241,20 @@ namespace Perimorph::Fracture
         if (is_without_share(point))
           continue;
         sums[3] += energy_release(point, direction);
+        if (!constants)
+          continue;
+        const auto frame = axes(point.x);
+        for (unsigned int k = 0; k < 3; ++k)
+          sums[k] +=
+            interaction(point, fields[k], *constants, frame, direction);
+      }
+    for (const auto &point : set.force_points)
+      {
+        if (point.q == 0.)
+          continue;
+        sums[3] +=
+          point.volume * point.q *
+          (point.stress_divergence * (point.displacement_gradient * direction));
         if (!constants)
           continue;
         const auto frame = axes(point.x);

@@ -1,4 +1,5 @@
 #include <perimorph/base/exceptions.h>
+#include <perimorph/fracture/cells_at_cracks.h>
 #include <perimorph/fracture/crack_slits.h>
 #include <perimorph/fracture/stress_points.h>
 #include <perimorph/mesh/cell_geometry.h>
@@ -33,17 +34,6 @@ namespace Perimorph::Fracture
       set.offsets.push_back(set.node.size());
     }
 
-    template <int dim>
-    bool
-    in_region(const Mesh::NodalMesh<dim> &mesh,
-              const unsigned int          cell,
-              const std::vector<bool>    &region)
-    {
-      return std::any_of(mesh.cells[cell].begin(),
-                         mesh.cells[cell].end(),
-                         [&](const unsigned int n) { return region[n]; });
-    }
-
     /// Gauss points of a cell.
     /// @param alpha  empty: 0
     template <int dim>
@@ -73,9 +63,6 @@ namespace Perimorph::Fracture
               const auto &gradient = geometry.gradients[q][v];
               point.displacement_gradient +=
                 dealii::outer_product(body.displacement[nodes[v]], gradient);
-              if (!body.stress_divergence.empty())
-                point.stress_divergence +=
-                  geometry.shape_value(q, v) * body.stress_divergence[nodes[v]];
               set.node.push_back(nodes[v]);
               set.value_weight.push_back(geometry.shape_value(q, v));
               set.gradient_weight.push_back(gradient);
@@ -83,32 +70,6 @@ namespace Perimorph::Fracture
           apply_law(law, point);
           finish_point(set, point);
         }
-    }
-
-    /// True if a crack passes between two nodes of the cell or between a Gauss
-    /// point and a node.
-    template <int dim>
-    bool
-    is_touched(const Mesh::NodalMesh<dim> &mesh,
-               const unsigned int          cell,
-               const Bonds::CrackSet<dim> &cracks,
-               std::vector<unsigned int>  &facets)
-    {
-      const auto corners = mesh.corners(cell);
-      cracks.near(corners, facets);
-      if (facets.empty())
-        return false;
-      const Mesh::CellGeometry<dim> geometry(corners);
-      for (unsigned int v = 0; v < corners.size(); ++v)
-        {
-          for (unsigned int w = 0; w < v; ++w)
-            if (cracks.crosses(corners[w], corners[v]))
-              return true;
-          for (const auto &point : geometry.points)
-            if (cracks.crosses(point, corners[v]))
-              return true;
-        }
-      return false;
     }
 
     /// Gauss points of the parts of a touched cell. The map of a part is that
@@ -154,10 +115,6 @@ namespace Perimorph::Fracture
               const auto result =
                 fit.fit(point.x, spacing, material, body.displacement);
               point.displacement_gradient = result.gradient;
-              if (!body.stress_divergence.empty())
-                point.stress_divergence =
-                  fit.fit(point.x, spacing, material, body.stress_divergence)
-                    .displacement;
               try
                 {
                   if (result.n_nodes == 0)
@@ -211,6 +168,12 @@ namespace Perimorph::Fracture
               point.q_gradient += q[node[k]] * gradient_weight[k];
             }
       }
+    for (auto &point : force_points)
+      {
+        point.q = 0.;
+        for (unsigned int v = 0; v < point.nodes.size(); ++v)
+          point.q += q[point.nodes[v]] * point.weights[v];
+      }
   }
 
   template <int dim>
@@ -245,6 +208,7 @@ namespace Perimorph::Fracture
   template <int dim>
   void
   add_family_points(const DeformedBody<dim>            &body,
+                    const Bonds::CrackSet<dim>         &cracks,
                     const Peridynamics::FamilySet<dim> &families,
                     const std::vector<bool>            &region,
                     StressPointSet<dim>                &set)
@@ -262,10 +226,8 @@ namespace Perimorph::Fracture
         if (!near || families.weight[p] == 0.)
           continue;
         StressPoint<dim> point = {};
-        point.x                = body.mesh.nodes[own];
+        point.x                = place_beside(body.mesh, cracks, own);
         point.volume           = families.weight[p];
-        if (!body.stress_divergence.empty())
-          point.stress_divergence = body.stress_divergence[own];
         dealii::Tensor<1, dim> sum;
         for (std::size_t b = families.offsets[p]; b < families.offsets[p + 1];
              ++b)
@@ -344,6 +306,7 @@ namespace Perimorph::Fracture
                                         const std::vector<bool> &,           \
                                         StressPointSet<dim> &);              \
   template void add_family_points<dim>(const DeformedBody<dim> &,            \
+                                       const Bonds::CrackSet<dim> &,         \
                                        const Peridynamics::FamilySet<dim> &, \
                                        const std::vector<bool> &,            \
                                        StressPointSet<dim> &);               \

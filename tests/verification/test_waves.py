@@ -1,10 +1,10 @@
 """Motion: a wave in a bar, waves that meet the interface of the coupling,
-cracks under a sudden and a growing stress, a crack between an inclusion and a hole,
-and relaxation towards the static answer.
+cracks under a sudden and a growing stress, in a composite and between an inclusion
+and a hole, and relaxation towards the static answer.
 
 References: d'Alembert's solution (bar_wave.csv), the same run by finite elements
-alone (reflection, inclusion and hole), Freund's crack, the static run. --extent long adds
-wavelengths, schemes and cases.
+alone (reflection, inclusion and hole), Freund's crack, an independent program
+(composite), the static run. --extent long adds wavelengths, schemes and cases.
 """
 
 import math
@@ -47,12 +47,8 @@ INTERFACE_DISTANCE = 10            # of the core from MIDDLE, spacings
 CRACK = "suddenly_loaded_crack.prm"
 DENSITY, STRESS, END_TIME = 7800., 1e6, 16e-6
 
-KNOWN_MISSES = {
-    # Waves of the length of a horizon that the jump of the load leaves around
-    # the crack; nothing damps them.
-    "coupled, explicit: largest error of K_I %": 9.,
-    "coupled, bond based: largest error of K_I %": 8.
-}
+COMPOSITE_CRACK = "dynamic_edge_crack.prm"
+AXES_OF_FIBRES = (0, 90)
 
 
 def root_mean_square(values):
@@ -302,14 +298,17 @@ def crack_in_motion(study):
     bonds = MODELS["bond based"]
     fine = {"Mesh/geometry parameters": "n = 100"}
     coarse = {"Mesh/geometry parameters": "n = 50"}
+    # Explicit: nothing damps the short waves that the jump of the load leaves
+    # beside the crack.
     sudden = {"finite elements, h/a 1/25": (dict(elements, **coarse), .3),
-              "coupled, implicit": ({}, .3)}
+              "coupled, implicit": ({}, .3),
+              "coupled, explicit": (explicit, .3),
+              "bond based, explicit": (dict(explicit, **bonds), .25)}
     growing = {"coupled, explicit": (explicit, .3)}
     if study.arguments.extent == "long":
         sudden.update({
             "finite elements, h/a 1/50": (dict(elements, **fine), .3),
             "coupled, m 3": ({"Peridynamics/horizon ratio": 3}, .3),
-            "coupled, explicit": (explicit, .3),
             "coupled, bond based": (bonds, .25)})
         growing.update({
             "finite elements, h/a 1/50": (dict(elements, **fine), .3),
@@ -370,6 +369,72 @@ def inclusion_and_hole(study):
                     100. * max(map(abs, coupled[1])) / max(coupled[0]), 5.)
 
 
+def factor_errors(study, angle, n, changes, reference):
+    """Relative L2 errors in % over time: of K_I, of K_II (fibres along an axis:
+    K_II over K_I) and of K_I by opening; largest difference of J between two
+    domains in %, from a sixth of the time on."""
+    table = study.solve(
+        COMPOSITE_CRACK,
+        dict({"Material/orientation": angle,
+              "Mesh/geometry parameters": "L = 0.1, d = 0.1, nx = %d, ny = %d" %
+              (n, n),
+              "Reference/values": ""}, **changes)).table("quantities")
+    rows = [row for row in zip(*(reference[name] for name in
+                                 ("angle", "time", "K_I", "K_II")))
+            if row[0] == angle]
+    times = table.get("time", [])
+    if len(times) != len(rows) or any(
+            abs(time - row[1]) > 1e-12 for time, row in zip(times, rows)):
+        return [math.nan] * 4
+    K_I, K_II = ([row[k] for row in rows] for k in (2, 3))
+    size = root_mean_square(K_I if angle in AXES_OF_FIBRES else K_II)
+    return [
+        100. * relative_error(table["edge_tip1_K_I"], K_I),
+        100. * root_mean_square([
+            a - b for a, b in zip(table["edge_tip1_K_II"], K_II)]) / size,
+        100. * relative_error(table["edge_tip1_K_I_opening"], K_I),
+        100. * max(table["edge_tip1_domain_dependence"][len(rows) // 6:])]
+
+
+def crack_in_composite(study):
+    """K_I within 2.5 %, K_II at 200 cells; its errors fall as the spacing, so 5 %
+    at 100. The opening is a check with three times the error of K_II. Summed with
+    other weights than the masses, J differs by 2.7 % (45 degrees) and 30 % (90)
+    between the domains."""
+    if not study.part("edge crack in a composite", "%"):
+        return
+    is_long = study.arguments.extent == "long"
+    reference = read_table(PARAMETER_FILES +
+                           "/reference/dynamic_edge_crack.csv")
+    elements = {"Mode": "finite elements",
+                "Mesh/file": MESHES + "/edge_slit.geo"}
+    for angle in (0, 30, 45, 60, 90) if is_long else (45, ):
+        for name, changes in (("coupled", {}), ("slit", elements)):
+            if name == "slit" and not is_long:
+                continue
+            before = None
+            for n in (100, 200) if is_long else (50, 100):
+                cells = ({"Mesh/geometry parameters": "n = %d" % n}
+                         if name == "slit" else {})
+                errors = factor_errors(study, angle, n, dict(changes, **cells),
+                                       reference)
+                label = "%d degrees, %s, %d cells: " % (angle, name, n)
+                if n >= 100:
+                    limit = 2.5 * 200 / n
+                    study.below(label + "K_I", errors[0], 2.5)
+                    study.below(label + "K_II", errors[1], limit)
+                    study.below(label + "K_I by opening", errors[2],
+                                3. * limit)
+                    study.below(label + "domain dependence of J", errors[3],
+                                2.)
+                if before and errors[1] > 1e-6:
+                    for k, factor in enumerate(("K_I", "K_II")):
+                        study.below(label + factor +
+                                    " over twice the spacing",
+                                    errors[k] / before[k], .75)
+                before = errors
+
+
 def relaxation(study):
     """The static answer without a matrix. What is zero is compared with the
     largest number of its kind, reactions with the force that does the work;
@@ -404,13 +469,14 @@ def relaxation(study):
 
 
 def main():
-    study = Study(__doc__, KNOWN_MISSES, extent=["short", "long"])
+    study = Study(__doc__, extent=["short", "long"])
     bar_wave(study)
     zero_energy_oscillations(study)
     interface_reflection(study)
     middle_region(study)
     crack_in_motion(study)
     inclusion_and_hole(study)
+    crack_in_composite(study)
     relaxation(study)
     study.finish()
 

@@ -20,10 +20,26 @@ namespace Perimorph::Fracture
     dealii::Tensor<2, dim> displacement_gradient; ///< [i][j] = du_i / dX_j
     dealii::Tensor<2, dim> first_piola_kirchhoff;
     double                 energy_density;
-    dealii::Tensor<1, dim> stress_divergence; ///< of DeformedBody
-    double                 q;                 ///< weight of a domain integral
+    double                 q; ///< weight of a domain integral
     dealii::Tensor<1, dim> q_gradient;
     double                 branch = 1.; ///< branch_sign()
+  };
+
+  /// A piece of the body with the divergence of its stress (force_points.h).
+  template <int dim>
+  struct ForcePoint
+  {
+    dealii::Point<dim> x;
+    /// Of whom the mass is: past the crack from here fields are continued.
+    dealii::Point<dim>                  owner;
+    double                              volume;
+    double                              width; ///< of the square around x
+    dealii::Tensor<1, dim>              stress_divergence; ///< of DeformedBody
+    dealii::Tensor<2, dim>              displacement_gradient;
+    typename Mesh::NodalMesh<dim>::Cell nodes;
+    std::array<double, Mesh::NodalMesh<dim>::nodes_per_cell> weights;
+    double                                                   q = 0.;
+    double branch = 1.; ///< branch_sign() of the owner
   };
 
   /// A piece of a face of a crack.
@@ -47,6 +63,8 @@ namespace Perimorph::Fracture
     std::vector<StressPoint<dim>> points;
     /// Only where a crack bends within the domain: add_face_points().
     std::vector<FacePoint<dim>> face_points;
+    /// Only where the stress has a divergence: add_force_points().
+    std::vector<ForcePoint<dim>> force_points;
 
     std::vector<std::size_t>            offsets = {0};   ///< per point
     std::vector<unsigned int>           node;            ///< global
@@ -96,12 +114,11 @@ namespace Perimorph::Fracture
   /// Adds the particles of this rank with volume a_i; the gradient is the sum
   /// (u_j - u_i) (x) g_ij, and that of q is taken by the same operator, so that
   /// the sum over all points is the change of energy of the discrete model
-  /// under the shift q of its material. The divergence of the stress is that of
-  /// the node, where the mass is: a mean over the family would smooth it, an
-  /// interpolation would reach across the crack.
+  /// under the shift q of its material.
   template <int dim>
   void
   add_family_points(const DeformedBody<dim>            &body,
+                    const Bonds::CrackSet<dim>         &cracks,
                     const Peridynamics::FamilySet<dim> &families,
                     const std::vector<bool>            &region,
                     StressPointSet<dim>                &set);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <perimorph/fracture/stress_points.h>
+#include <perimorph/fracture/force_points.h>
 #include <perimorph/materials/material_factory.h>
 
 #include "near_tip_bodies.h"
@@ -62,14 +62,12 @@ namespace Perimorph::Testing
                                               displacement,
                                               stress_divergence};
       const auto region = Fracture::nodes_within<2>(mesh, {field.tip}, 0.9);
+      const auto fit    = Fracture::visible_fit(mesh, cracks);
       Fracture::StressPointSet<2> set;
+      add_force_points(body, cracks, *fit, region, set);
       if (source == Source::cells)
         {
-          add_cell_points(body,
-                          cracks,
-                          *Fracture::visible_fit(mesh, cracks),
-                          region,
-                          set);
+          add_cell_points(body, cracks, *fit, region, set);
           return set;
         }
       std::vector<double> alpha(mesh.n_nodes(), 1.);
@@ -82,7 +80,7 @@ namespace Perimorph::Testing
           }
       const auto families = cut_families(mesh, alpha, 2., cracks, *field.law());
       add_element_points(body, alpha, region, set);
-      add_family_points(body, families, region, set);
+      add_family_points(body, cracks, families, region, set);
       return set;
     }
 

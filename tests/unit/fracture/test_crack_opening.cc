@@ -36,7 +36,7 @@ namespace
             const auto found  = factors_from_opening(*visible_fit(mesh, cracks),
                                                     displacement,
                                                     field.frame(),
-                                                    1.,
+                                                    0.15,
                                                     field.constants());
             EXPECT_EQ(found.n_places, 16u);
             EXPECT_LT(std::abs(found.K_I / field.K_I - 1.), opening[level])
@@ -62,6 +62,17 @@ namespace
                        {{0.14, 2.5e-2, 7.7e-3}});
   }
 
+  TEST(CrackOpening, nearest_place_under_refinement)
+  {
+    EXPECT_EQ(nearest_place(2., 0.01, false), 0.3);
+    EXPECT_EQ(nearest_place(2., 1., true), 0.3);
+    for (const double horizon : {0.2, 0.05})
+      EXPECT_NEAR(nearest_place(2., horizon, true) /
+                    nearest_place(2., horizon / 4., true),
+                  2.,
+                  1e-14);
+  }
+
   TEST(CrackOpening, no_nodes_no_number)
   {
     Testing::NearTipCase                    field;
@@ -73,7 +84,7 @@ namespace
     const auto found = factors_from_opening(fit,
                                             displacement,
                                             field.frame(),
-                                            1.,
+                                            0.15,
                                             field.constants());
     EXPECT_EQ(found.n_places, 0u);
     EXPECT_TRUE(std::isnan(found.K_I));

@@ -1,3 +1,6 @@
+#include <perimorph/fracture/cells_at_cracks.h>
+#include <perimorph/mesh/cell_geometry.h>
+
 #include "near_tip_plate.h"
 #include <gtest/gtest.h>
 
@@ -42,6 +45,49 @@ namespace
     }
   };
 
+  /// Volume that each node moves over its own: a node has the mass of its shape
+  /// function, the stress pulls what is on its side of the crack. Squares of
+  /// a touched cell go to the nodes that they see.
+  std::vector<double>
+  moved_volume(const Mesh::NodalMesh<2> &mesh, const Bonds::CrackSet<2> &cracks)
+  {
+    constexpr unsigned int    n_parts = 32;
+    std::vector<double>       moved   = mesh.volume;
+    std::vector<unsigned int> facets;
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      {
+        if (!is_touched(mesh, c, cracks, facets))
+          continue;
+        const auto corners = mesh.corners(c);
+        for (unsigned int part = 0; part < n_parts * n_parts; ++part)
+          {
+            const double     x = (part % n_parts + 0.5) / n_parts;
+            const double     y = (part / n_parts + 0.5) / n_parts;
+            const auto       N = Mesh::shape_values<2>(dealii::Point<2>(x, y));
+            dealii::Point<2> place;
+            for (unsigned int v = 0; v < 4; ++v)
+              place += N[v] * corners[v];
+            const auto along = (1. - y) * (corners[1] - corners[0]) +
+                               y * (corners[3] - corners[2]);
+            const auto up = (1. - x) * (corners[2] - corners[0]) +
+                            x * (corners[3] - corners[1]);
+            const double volume =
+              (along[0] * up[1] - along[1] * up[0]) / (n_parts * n_parts);
+            std::array<double, 4> share = {};
+            double                seen  = 0.;
+            for (unsigned int v = 0; v < 4; ++v)
+              if (!cracks.crosses(place, corners[v]))
+                seen += share[v] = N[v];
+            for (unsigned int v = 0; v < 4; ++v)
+              moved[mesh.cells[c][v]] +=
+                volume * ((seen > 0. ? share[v] / seen : N[v]) - N[v]);
+          }
+      }
+    for (unsigned int n = 0; n < mesh.n_nodes(); ++n)
+      moved[n] /= mesh.volume[n];
+    return moved;
+  }
+
   /// The near-tip field and a linear stress that accelerates the body.
   struct AcceleratedPlate : Plate
   {
@@ -54,7 +100,15 @@ namespace
       const LinearStress stress;
       for (unsigned int n = 0; n < mesh.n_nodes(); ++n)
         displacement[n] += stress.displacement(field, mesh.nodes[n]);
-      stress_divergence.assign(mesh.n_nodes(), stress.divergence(field));
+      accelerate();
+    }
+
+    void
+    accelerate()
+    {
+      stress_divergence.clear();
+      for (const double volume : moved_volume(mesh, cracks))
+        stress_divergence.push_back(volume * LinearStress().divergence(field));
     }
   };
 
@@ -100,14 +154,14 @@ namespace
     expect_convergence(Source::cells,
                        {},
                        {{2e-2, 3.7e-3, 1.6e-3}},
-                       {{1.2e-2, 5.6e-3, 1.9e-3}});
+                       {{1.2e-2, 5.6e-3, 3.5e-3}});
   }
 
   TEST(DynamicIntegral, families_converge)
   {
     expect_convergence(Source::families,
                        {},
-                       {{1.9e-2, 1.1e-2, 4.3e-3}},
+                       {{2.6e-2, 1.1e-2, 4.3e-3}},
                        {{1.7e-2, 1e-2, 9.6e-3}});
   }
 
@@ -126,7 +180,7 @@ namespace
     expect_convergence(Source::cells,
                        body,
                        {{2e-2, 3.3e-3, 1.3e-3}},
-                       {{1.3e-2, 2.9e-3, 1.5e-3}});
+                       {{1.3e-2, 7e-3, 1.5e-3}});
   }
 
   // What the term is for: without it K_I is 10 and 13 % too small, K_II 25 and
@@ -144,9 +198,9 @@ namespace
       {
         right[k] = plate.quantities(set, annuli[k]);
         wrong[k] = at_rest.quantities(other, annuli[k]);
-        EXPECT_NEAR(right[k].K_I / exact.K_I, 1., 6e-4);
+        EXPECT_NEAR(right[k].K_I / exact.K_I, 1., 2.3e-3);
         EXPECT_NEAR(right[k].K_II / exact.K_II, 1., 2e-4);
-        EXPECT_NEAR(right[k].J / exact.exact_J(), 1., 6e-4);
+        EXPECT_NEAR(right[k].J / exact.exact_J(), 1., 2.1e-3);
         EXPECT_LT(wrong[k].K_I / exact.K_I, 0.91);
         EXPECT_GT(wrong[k].K_II / exact.K_II, 1.24);
         EXPECT_LT(wrong[k].J / exact.exact_J(), 0.56);
@@ -164,9 +218,10 @@ namespace
     AcceleratedPlate plate(40, 0., 0.);
     plate.field.tip = dealii::Point<2>();
     plate.cracks    = plate.field.crack();
-    auto at_rest    = AcceleratedPlate(40, 0., 0.);
-    at_rest.field   = plate.field;
-    at_rest.cracks  = plate.field.crack();
+    plate.accelerate();
+    auto at_rest   = AcceleratedPlate(40, 0., 0.);
+    at_rest.field  = plate.field;
+    at_rest.cracks = plate.field.crack();
     at_rest.stress_divergence.clear();
     for (unsigned int n = 0; n < plate.mesh.n_nodes(); ++n)
       {
@@ -184,10 +239,9 @@ namespace
         const auto found = plate.quantities(plate.points(source), annuli[0]);
         const auto expected =
           at_rest.quantities(at_rest.points(source), annuli[0]);
-        // measured: 3e-4, 5e-4, 6e-3 and 0.018, 0.016, 9e-4
         EXPECT_NEAR(found.K_I, expected.K_I, 2.4e-2);
         EXPECT_NEAR(found.K_II, expected.K_II, 2.1e-2);
-        EXPECT_NEAR(found.J / expected.J, 1., 8e-3);
+        EXPECT_NEAR(found.J / expected.J, 1., 1.5e-2);
         EXPECT_NEAR(found.T_stress, expected.T_stress, 1.4e-2);
       }
   }
