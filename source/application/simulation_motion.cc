@@ -21,6 +21,10 @@ namespace Perimorph::Application
     }
 
     constexpr double implicit_over_explicit = 10.;
+
+    /// Energy from nothing over the largest energy: beyond, a motion is no
+    /// solution, and beyond the smaller one that needs a word.
+    constexpr double unbounded_drift = 0.5, large_drift = 0.05;
   } // namespace
 
   template <int dim>
@@ -251,6 +255,15 @@ namespace Perimorph::Application
                                 energy_at_start - motion.work) /
                                largest_energy;
     energy_drift = std::max(energy_drift, std::abs(instant.energy_balance));
+    if (instant.energy_balance > unbounded_drift)
+      {
+        std::ostringstream text;
+        text << "the motion gains energy from nothing: at t = " << motion.time
+             << " it is " << 100. * instant.energy_balance
+             << " % of all energy; use a smaller 'Time integration / safety "
+                "factor' or a finer mesh";
+        throw Base::SolveError(text.str());
+      }
     return instant;
   }
 
@@ -408,6 +421,13 @@ namespace Perimorph::Application
           evaluated = true;
         }
     });
+    if (energy_drift > large_drift)
+      {
+        std::ostringstream text;
+        text << "the energy drifts by " << 100. * energy_drift
+             << " %: use a smaller 'Time integration / safety factor'";
+        log.warning(text.str());
+      }
     if (!evaluated) // resumed at the end
       evaluate(method, gather(method));
     result->set("solver",

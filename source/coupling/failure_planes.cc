@@ -114,6 +114,7 @@ namespace Perimorph::Coupling
     // Load factors that differ by round-off count as equal; then the place
     // decides, since the numbers of nodes depend on the number of ranks.
     constexpr double digits = 1e6;
+    constexpr double half   = 0.5; // a plane is one horizon wide
 
     planes.clear();
     trees->planes.clear();
@@ -159,7 +160,7 @@ namespace Perimorph::Coupling
 
     const auto open_at = [&](const dealii::Point<dim> &center,
                              const Candidate          &bond) {
-      planes.push_back({center, bond.normal, 0.5 * bond.horizon});
+      planes.push_back({center, bond.normal, half * bond.horizon});
       largest_radius = std::max(largest_radius, planes.back().radius);
       trees->planes.insert(std::make_pair(center, planes.size() - 1));
     };
@@ -168,20 +169,25 @@ namespace Perimorph::Coupling
       {
         if (cut(bond.ends[0], bond.ends[1]))
           continue;
-        const auto center   = middle(bond.ends[0], bond.ends[1]);
-        auto       next     = center;
-        double     distance = std::numeric_limits<double>::infinity();
-        bool       is_alone = true;
-        const auto box      = box_around(center, 2. * bond.horizon);
+        // A horizon beyond the edge of a plane.
+        const double reach    = (1. + half) * bond.horizon;
+        const auto   center   = middle(bond.ends[0], bond.ends[1]);
+        auto         next     = center;
+        double       distance = std::numeric_limits<double>::infinity();
+        bool         is_alone = true;
+        const auto   box      = box_around(center, 2. * bond.horizon);
         for (const auto *tree : {&trees->tips, &trees->places, &trees->planes})
           for (auto entry = tree->qbegin(bgi::intersects(box));
                entry != tree->qend();
                ++entry)
             {
               dealii::Point<dim> at;
+              const auto         away   = center - entry->first;
+              const double       beside = std::abs(away * bond.normal);
+              // Ahead: less beside the plane than along it.
               is_alone =
-                is_alone && (tree == &trees->tips ||
-                             center.distance(entry->first) > bond.horizon);
+                is_alone && (tree == &trees->tips || away.norm() > reach ||
+                             away.norm_square() < 2. * beside * beside);
               if (!crossing(bond.ends[0],
                             bond.ends[1],
                             entry->first,
@@ -189,13 +195,13 @@ namespace Perimorph::Coupling
                             at))
                 continue;
               const double d = at.distance(entry->first);
-              if (d <= bond.horizon && d < distance)
+              if (d <= reach && d < distance)
                 {
                   distance = d;
                   next     = at;
                 }
             }
-        if (distance <= bond.horizon)
+        if (distance <= reach)
           open_at(next, bond);
         else if (is_alone)
           elsewhere.push_back(&bond);

@@ -151,6 +151,9 @@ MOTION = {
     (["Mesh/geometry parameters=L = 0.1, d = 0.1, nx = 40, ny = 40",
       "Load steps/end time=5e-6", "Load steps/number of steps=10"], {}, {}),
     "dynamic_branching.prm": (["Load steps/end time=2e-6"], {}, {}),
+    "composite_centre_crack.prm":
+    (["Mesh/geometry parameters=L = 0.125, d = 0.25, h = 0.0025",
+      "Load steps/end time=20e-6", "Load steps/number of steps=4"], {}, {}),
     # the start only, on a coarse mesh
     "kalthoff_winkler.prm":
     (["Mesh/geometry parameters=h = 0.002", "Load steps/end time=20e-6"], {},

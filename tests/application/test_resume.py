@@ -131,6 +131,17 @@ CASES = [
         "Time integration/scheme": "explicit",
         "Peridynamics/model": "bond based",
     }), (2, 10)),
+    ("explicit motion with planes that open", dict(PULLED, **{
+        "Time integration/scheme": "explicit",
+        "Material/law": "orthotropic",
+        "Material/Young's modulus": None,
+        "Material/Poisson's ratio": None,
+        "Material/constants": "E1 = 5, E2 = 1, nu12 = 0.3, G12 = 0.4",
+        "Material/orientation": "30",
+        "Cracks/criterion": "tsai-hill",
+        "Cracks/fracture energy": None,
+        "Cracks/strengths": "X = 50, Y = 2, S = 2",
+    }), (2, 10)),
     ("implicit motion with families that break", dict(PULLED, **{
         "Time integration/scheme": "implicit",
         "Time integration/time step": "0.05",

@@ -39,11 +39,11 @@ namespace Perimorph::Coupling
   /// criteria of stress hardly depend on the direction. So the plane on which
   /// the material fails opens through the bond, half a horizon to each side,
   /// and cuts all bonds that cross it. Where the bond crosses the continuation
-  /// of a tip or of an earlier plane within a horizon of it, it opens there:
-  /// cracks go on instead of beginning anew beside. These come first, then the
-  /// others, the most overloaded bonds before the less. No crack begins within
-  /// a horizon of a plane that opened before, since the model cannot tell both
-  /// apart.
+  /// of a tip or of an earlier plane, a horizon beyond its edge, it opens
+  /// there: cracks go on instead of beginning anew beside. These come first,
+  /// then the others, the most overloaded bonds before the less. No crack
+  /// begins ahead of a plane that opened before, within a horizon of its edge,
+  /// but not in line with it: that one will relieve the bond.
   ///
   /// The same on all ranks.
   template <int dim>
