@@ -181,7 +181,7 @@ def along_the_fibres(study):
                 for mesh in ("regular", "unstructured")]
     for angle, mesh in runs:
         changes = {"Material/orientation": angle}
-        if angle == 90:
+        if angle in (45, 90):
             changes["Load steps/end time"] = 32e-6
         if mesh == "regular":
             changes.update(REGULAR)

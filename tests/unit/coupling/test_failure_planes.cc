@@ -81,7 +81,7 @@ namespace Perimorph::Coupling
       Lattice::bond({{5, 5}}, {{5, 6}}, 0.9)};
     for (const auto &[place, height] :
          {std::make_pair(dealii::Point<2>(3., 5.25), 5.25),
-          std::make_pair(dealii::Point<2>(1., 5.25), 5.5),  // too far
+          std::make_pair(dealii::Point<2>(0., 5.25), 5.5),  // too far
           std::make_pair(dealii::Point<2>(5., 6.25), 5.5)}) // does not cross
       {
         FailurePlanes<2> planes;
@@ -125,7 +125,7 @@ namespace Perimorph::Coupling
       EXPECT_EQ(same.open_planes()[k].center, planes.open_planes()[k].center);
   }
 
-  TEST(FailurePlanes, no_crack_begins_beside_another)
+  TEST(FailurePlanes, no_crack_begins_ahead_of_another)
   {
     const Lattice    lattice;
     FailurePlanes<2> planes;
@@ -133,19 +133,20 @@ namespace Perimorph::Coupling
                 lattice.nodes,
                 lattice.horizon);
     planes.keep();
-    const auto n_opened = [&](const unsigned int j) {
-      planes.open({Lattice::bond({{5, j}}, {{5, j + 1}}, 0.5)},
+    const auto n_opened = [&](const unsigned int i, const unsigned int j) {
+      planes.open({Lattice::bond({{i, j}}, {{i, j + 1}}, 0.5)},
                   lattice.nodes,
                   lattice.horizon);
       return planes.open_planes().size();
     };
-    EXPECT_EQ(n_opened(7), 0u);
-    EXPECT_EQ(n_opened(9), 1u);
+    EXPECT_EQ(n_opened(8, 6), 0u);  // ahead, out of line
+    EXPECT_EQ(n_opened(10, 6), 1u); // far ahead
+    EXPECT_EQ(n_opened(5, 7), 1u);  // beside: the plane has not relieved it
 
     // A tip only says where cracks go on.
     FailurePlanes<2> other;
     other.add_tip({5., 5.5});
-    other.open({Lattice::bond({{5, 7}}, {{5, 8}}, 0.5)},
+    other.open({Lattice::bond({{8, 6}}, {{8, 7}}, 0.5)},
                lattice.nodes,
                lattice.horizon);
     EXPECT_EQ(other.open_planes().size(), 1u);
