@@ -53,7 +53,7 @@ namespace Perimorph::Application
     time.initial_displacement =
       field("initial displacement", texts.initial_displacement);
     time.initial_velocity = field("initial velocity", texts.initial_velocity);
-    coupling.holds_loose_parts = !time.has_inertia();
+    coupling.is_in_motion = time.has_inertia();
     if (time.scheme == TimeScheme::equilibrium)
       return;
 

@@ -22,8 +22,29 @@ namespace Perimorph::Coupling
 
   template <int dim>
   void
+  mark_cells_of_bond(const Mesh::NodalMesh<dim>        &mesh,
+                     const std::array<unsigned int, 2> &bond,
+                     const bool                         in_motion,
+                     std::vector<bool>                 &goes)
+  {
+    if (in_motion)
+      {
+        for (const unsigned int node : bond)
+          for (const unsigned int c : mesh.node_cells.row(node))
+            goes[c] = true;
+        return;
+      }
+    for (const unsigned int c : mesh.node_cells.row(bond[0]))
+      if (std::find(mesh.cells[c].begin(), mesh.cells[c].end(), bond[1]) !=
+          mesh.cells[c].end())
+        goes[c] = true;
+  }
+
+  template <int dim>
+  void
   break_bonds(const Mesh::NodalMesh<dim> &mesh,
               const Bonds::BrokenBonds   &broken,
+              const bool                  in_motion,
               BondCoupling<dim>          &coupling)
   {
     auto             &bonds = coupling.bonds;
@@ -43,11 +64,10 @@ namespace Perimorph::Coupling
     coupling.replaced.resize(mesh.n_cells(), false);
     std::vector<bool> goes(mesh.n_cells(), false);
     for (const auto &bond : broken.list())
-      for (const unsigned int c : mesh.node_cells.row(bond.nodes[0]))
-        if (std::find(mesh.cells[c].begin(),
-                      mesh.cells[c].end(),
-                      bond.nodes[1]) != mesh.cells[c].end())
-          goes[c] = coupling.replaced[c] = true;
+      mark_cells_of_bond(mesh, bond.nodes, in_motion, goes);
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      if (goes[c])
+        coupling.replaced[c] = true;
     const auto stays = [&goes, cells = coupling.cells](const std::size_t k) {
       return !goes[cells[k]];
     };
@@ -66,12 +86,17 @@ namespace Perimorph::Coupling
       coupling.springs.end());
   }
 
-  template void
-  break_bonds(const Mesh::NodalMesh<2> &,
-              const Bonds::BrokenBonds &,
-              BondCoupling<2> &);
-  template void
-  break_bonds(const Mesh::NodalMesh<3> &,
-              const Bonds::BrokenBonds &,
-              BondCoupling<3> &);
+#define PERIMORPH_INSTANTIATE(dim)                                      \
+  template void mark_cells_of_bond(const Mesh::NodalMesh<dim> &,        \
+                                   const std::array<unsigned int, 2> &, \
+                                   bool,                                \
+                                   std::vector<bool> &);                \
+  template void break_bonds(const Mesh::NodalMesh<dim> &,               \
+                            const Bonds::BrokenBonds &,                 \
+                            bool,                                       \
+                            BondCoupling<dim> &);
+
+  PERIMORPH_INSTANTIATE(2)
+  PERIMORPH_INSTANTIATE(3)
+#undef PERIMORPH_INSTANTIATE
 } // namespace Perimorph::Coupling

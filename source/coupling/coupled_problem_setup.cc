@@ -261,7 +261,7 @@ namespace Perimorph::Coupling
               complement(region.alpha),
               {},
               std::move(term));
-    if (!broken.empty() && parameters.holds_loose_parts)
+    if (!broken.empty() && !parameters.is_in_motion)
       ground_loose_parts(parts);
   }
 
@@ -348,7 +348,7 @@ namespace Perimorph::Coupling
             std::make_shared<const IntactBonds<dim>>(found);
         }
       if (!broken.empty())
-        break_bonds(nodal, broken, coupling);
+        break_bonds(nodal, broken, parameters.is_in_motion, coupling);
     });
     bond_set             = coupling.bonds;
     cracked              = coupling.cracked;
@@ -386,7 +386,7 @@ namespace Perimorph::Coupling
         std::make_unique<CellPartTerm<dim>>(partition(),
                                             std::move(coupling.parts),
                                             std::move(coupling.part_tensors)));
-    if (broken.empty() || !parameters.holds_loose_parts)
+    if (broken.empty() || parameters.is_in_motion)
       return;
     std::vector<bool> lost(nodal.n_nodes(), false);
     for (const auto &bond : broken.list())

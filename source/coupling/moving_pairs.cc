@@ -1,4 +1,5 @@
 #include <perimorph/coupling/bond_term.h>
+#include <perimorph/coupling/broken_bond_set.h>
 #include <perimorph/coupling/cell_part_term.h>
 #include <perimorph/coupling/moving_bonds.h>
 
@@ -66,7 +67,6 @@ namespace Perimorph::Coupling
             place[{{std::min(pairs[b][0], pairs[b][1]),
                     std::max(pairs[b][0], pairs[b][1])}}] = b;
         std::vector<bool> goes(nodal.n_cells(), false);
-        bool              some_cell_goes = false;
         for (const auto &bond : nodes)
           {
             const auto found = place.find(
@@ -79,11 +79,7 @@ namespace Perimorph::Coupling
                 share[b] = left;
                 find_limit(b);
               }
-            for (const unsigned int c : nodal.node_cells.row(bond[0]))
-              if (std::find(nodal.cells[c].begin(),
-                            nodal.cells[c].end(),
-                            bond[1]) != nodal.cells[c].end())
-                goes[c] = some_cell_goes = true;
+            mark_cells_of_bond(nodal, bond, true, goes);
           }
         if (auto *parts = problem.template find_term<CellPartTerm<dim>>())
           parts->remove([&](const unsigned int               cell,
@@ -100,8 +96,7 @@ namespace Perimorph::Coupling
                        global.end();
             });
           });
-        if (some_cell_goes)
-          problem.remove_cells(goes);
+        problem.remove_cells(goes);
       }
 
     private:

@@ -49,8 +49,8 @@ namespace Perimorph::Coupling
     CrackRule                         crack_rule = CrackRule::consistent;
     /// Whether SharedParts::intact is kept.
     bool bonds_may_break = false;
-    /// Whether weak springs hold what broke off; inertia does too.
-    bool holds_loose_parts = true;
+    /// Whether inertia holds what broke off, instead of weak springs.
+    bool is_in_motion = false;
   };
 
   /// Whether gradients of families reach over the horizon: as chosen, and the

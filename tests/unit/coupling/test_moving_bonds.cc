@@ -32,13 +32,13 @@ namespace Perimorph::Coupling
         Mesh::RegionParameters around;
         around.features = {
           {Parameters::FeatureKind::box, "", {0.2, 0.35, 0.8, 0.65}}};
-        around.core_size             = {0.2, false, false};
-        around.may_fill_body         = true;
-        region                       = make_region_map(mesh, around);
-        parameters.model             = model;
-        parameters.support           = GradientSupport::horizon;
-        parameters.bonds_may_break   = true;
-        parameters.holds_loose_parts = false;
+        around.core_size           = {0.2, false, false};
+        around.may_fill_body       = true;
+        region                     = make_region_map(mesh, around);
+        parameters.model           = model;
+        parameters.support         = GradientSupport::horizon;
+        parameters.bonds_may_break = true;
+        parameters.is_in_motion    = true;
       }
 
       CoupledProblem<2>
