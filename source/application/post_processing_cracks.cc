@@ -156,30 +156,23 @@ namespace Perimorph::Application
       has_slits() ||
       (parameters.coupling.model == Coupling::Model::correspondence &&
        region.n_core > 0);
-    auto divergence =
-      Fem::body_force_density(mesh,
-                              parameters.boundary_conditions.body_forces,
-                              state.time);
-    for (auto &force : divergence)
-      force *= -1.;
-    if (!state.acceleration.empty())
-      {
-        divergence.resize(mesh.nodal().n_nodes());
-        const auto &nodal = mesh.nodal();
-        for (unsigned int n = 0; n < divergence.size(); ++n)
-          divergence[n] +=
-            materials.density[nodal.cell_material[nodal.node_cells.row(n)[0]]] *
-            state.acceleration[n];
-        Mesh::set_hanging_values(nodal.hanging, divergence);
-      }
-    return {
-      {mesh.nodal(), materials.laws, state.displacement, std::move(divergence)},
-      cracks,
-      region.alpha,
-      region.horizon,
-      has_families ? &families : nullptr,
-      planes,
-      has_slits()};
+    auto acceleration = state.acceleration;
+    if (!acceleration.empty())
+      Mesh::set_hanging_values(mesh.nodal().hanging, acceleration);
+    return {{mesh.nodal(),
+             materials.laws,
+             state.displacement,
+             Fem::body_force_density(mesh,
+                                     parameters.boundary_conditions.body_forces,
+                                     state.time),
+             std::move(acceleration),
+             materials.density},
+            cracks,
+            region.alpha,
+            region.horizon,
+            has_families ? &families : nullptr,
+            planes,
+            has_slits()};
   }
 
   template <int dim>

@@ -260,8 +260,7 @@ namespace Perimorph::Application
         std::ostringstream text;
         text << "the motion gains energy from nothing: at t = " << motion.time
              << " it is " << 100. * instant.energy_balance
-             << " % of all energy; use a smaller 'Time integration / safety "
-                "factor' or a finer mesh";
+             << " % of all energy; use shorter time steps";
         throw Base::SolveError(text.str());
       }
     return instant;
@@ -425,7 +424,7 @@ namespace Perimorph::Application
       {
         std::ostringstream text;
         text << "the energy drifts by " << 100. * energy_drift
-             << " %: use a smaller 'Time integration / safety factor'";
+             << " %: look at 'time_steps.csv'; shorter time steps may help";
         log.warning(text.str());
       }
     if (!evaluated) // resumed at the end

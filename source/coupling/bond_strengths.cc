@@ -27,18 +27,19 @@ namespace Perimorph::Coupling
       const double factor = rule.load_factor(bond);
       if (!(factor < lowest.load_factor))
         return;
-      lowest = {factor, {}};
+      StrengthLoad found{factor, {}};
       if (opens_plane)
         {
-          lowest.normal =
+          found.normal =
             Damage::failure_plane_normal(bond.stress, bond.axes, strengths);
           // Planes of a 2D model stand upright on it.
-          if (dim == 2 && std::abs(lowest.normal[2]) > parallel)
-            lowest.normal = dealii::Tensor<1, 3>();
+          if (dim == 2 && std::abs(found.normal[2]) > parallel)
+            found.normal = dealii::Tensor<1, 3>();
           else if (nodes[0] != nodes[1] &&
-                   std::abs(lowest.normal * bond.direction) < parallel)
-            lowest = {never, {}};
+                   std::abs(found.normal * bond.direction) < parallel)
+            return;
         }
+      lowest = found;
     };
     for (const unsigned int law : states.laws.row(nodes[0]))
       {

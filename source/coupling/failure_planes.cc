@@ -111,8 +111,8 @@ namespace Perimorph::Coupling
                            const std::vector<dealii::Point<dim>> &nodes,
                            const std::vector<double>             &horizon)
   {
-    // Load factors that differ by round-off count as equal; then the place
-    // decides, since the numbers of nodes depend on the number of ranks.
+    // Load factors that differ by little over the lowest count as equal; then
+    // the place decides, as the numbers of nodes depend on the number of ranks.
     constexpr double digits = 1e6;
     constexpr double half   = 0.5; // a plane is one horizon wide
 
@@ -134,6 +134,9 @@ namespace Perimorph::Coupling
           return a[d] < b[d];
       return false;
     };
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const auto &bond : bonds)
+      lowest = std::min(lowest, bond.load_factor);
     std::vector<Candidate> candidates;
     for (const auto &bond : bonds)
       {
@@ -142,7 +145,7 @@ namespace Perimorph::Coupling
           one.normal[d] = bond.normal[d];
         if (one.normal.norm_square() == 0.)
           continue;
-        one.load    = std::round(bond.load_factor * digits);
+        one.load    = std::round(bond.load_factor / lowest * digits);
         one.ends    = {{nodes[bond.nodes[0]], nodes[bond.nodes[1]]}};
         one.horizon = 0.5 * (horizon[bond.nodes[0]] + horizon[bond.nodes[1]]);
         if (less(one.ends[1], one.ends[0]))

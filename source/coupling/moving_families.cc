@@ -177,12 +177,15 @@ namespace Perimorph::Coupling
       void
       add_cut_bonds(std::vector<std::array<unsigned int, 2>> &found) const
       {
+        // Bonds over horizons; families of cells reach beyond one.
+        constexpr double longest = 2.;
+
         const auto &nodes = mesh.nodal().nodes;
         for (std::size_t p = 0; p < current.n_particles(); ++p)
           {
             const unsigned int i = current.node[p];
             if (damage.is_protected[i] ||
-                !planes.is_near(nodes[i], region.horizon[i]))
+                !planes.is_near(nodes[i], longest * region.horizon[i]))
               continue;
             for (std::size_t b = current.offsets[p]; b < current.offsets[p + 1];
                  ++b)

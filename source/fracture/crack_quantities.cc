@@ -137,7 +137,7 @@ namespace Perimorph::Fracture
             tip.frame,
             nearest_place(length,
                           std::max(around.horizon, 2. * around.spacing),
-                          !cracked.body.stress_divergence.empty()),
+                          !cracked.body.acceleration.empty()),
             *constants,
             tip.path);
         all.push_back(std::move(result));

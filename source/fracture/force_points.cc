@@ -41,7 +41,7 @@ namespace Perimorph::Fracture
             {
               const unsigned int n = point.nodes[v];
               point.stress_divergence +=
-                point.weights[v] * body.stress_divergence[n];
+                point.weights[v] * body.stress_divergence(cell, n);
               point.displacement_gradient +=
                 dealii::outer_product(body.displacement[n],
                                       geometry.gradients[q][v]);
@@ -57,26 +57,30 @@ namespace Perimorph::Fracture
                const unsigned int            cell,
                const Bonds::CrackSet<dim>   &cracks,
                const DisplacementFit<dim>   &fit,
-               std::vector<ForcePoint<dim>> &points)
+               std::vector<ForcePoint<dim>> &points,
+               unsigned int                 &n_without_stress)
     {
       const Mesh::CellGeometry<dim> geometry(body.mesh.corners(cell));
       for (unsigned int v = 0; v < body.mesh.nodes_per_cell; ++v)
         {
-          const unsigned int n        = body.mesh.cells[cell][v];
-          const auto         owner    = place_beside(body.mesh, cracks, n);
-          const auto         gradient = fit
-                                  .fit(owner,
-                                       body.mesh.spacing[n],
-                                       body.mesh.cell_material[cell],
-                                       body.displacement)
-                                  .gradient;
+          const unsigned int n      = body.mesh.cells[cell][v];
+          const auto         owner  = place_beside(body.mesh, cracks, n);
+          const auto         fitted = fit.fit(owner,
+                                      body.mesh.spacing[n],
+                                      body.mesh.cell_material[cell],
+                                      body.displacement);
+          if (fitted.n_nodes == 0)
+            {
+              ++n_without_stress;
+              continue;
+            }
           for (unsigned int q = 0; q < geometry.n_points; ++q)
             {
               auto point  = point_of(body.mesh, cell, geometry, q);
               point.owner = owner;
               point.volume *= point.weights[v];
-              point.stress_divergence     = body.stress_divergence[n];
-              point.displacement_gradient = gradient;
+              point.stress_divergence     = body.stress_divergence(cell, n);
+              point.displacement_gradient = fitted.gradient;
               points.push_back(point);
             }
         }
@@ -91,14 +95,19 @@ namespace Perimorph::Fracture
                    const std::vector<bool>    &region,
                    StressPointSet<dim>        &set)
   {
-    if (body.stress_divergence.empty())
+    if (body.body_force.empty() && body.acceleration.empty())
       return;
     std::vector<unsigned int> facets;
     for (unsigned int c = 0; c < body.mesh.n_cells(); ++c)
       if (body.mesh.owns_cell(c) && in_region(body.mesh, c, region))
         {
           if (is_touched(body.mesh, c, cracks, facets))
-            add_shares(body, c, cracks, fit, set.force_points);
+            add_shares(body,
+                       c,
+                       cracks,
+                       fit,
+                       set.force_points,
+                       set.n_without_stress);
           else
             add_interpolated(body, c, set.force_points);
         }

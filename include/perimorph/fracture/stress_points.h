@@ -88,9 +88,24 @@ namespace Perimorph::Fracture
     const Mesh::NodalMesh<dim>                &mesh;
     const MaterialList<dim>                   &materials;
     const std::vector<dealii::Tensor<1, dim>> &displacement; ///< all nodes
-    /// div P at all nodes, for domain integrals [force / volume]: density times
-    /// acceleration less the body force. Empty: zero.
-    std::vector<dealii::Tensor<1, dim>> stress_divergence = {};
+    /// Of all nodes, for domain integrals [force / volume]; empty: none.
+    std::vector<dealii::Tensor<1, dim>> body_force = {};
+    /// Of all nodes; empty: at rest.
+    std::vector<dealii::Tensor<1, dim>> acceleration = {};
+    std::vector<double>                 density      = {}; ///< of each law
+
+    /// div P of a node in a cell: density of the cell times acceleration less
+    /// the body force.
+    dealii::Tensor<1, dim>
+    stress_divergence(const unsigned int cell, const unsigned int node) const
+    {
+      dealii::Tensor<1, dim> divergence;
+      if (!body_force.empty())
+        divergence -= body_force[node];
+      if (!acceleration.empty())
+        divergence += density[mesh.cell_material[cell]] * acceleration[node];
+      return divergence;
+    }
   };
 
   /// Nodes closer to one of the centers than the radius. Cells and particles

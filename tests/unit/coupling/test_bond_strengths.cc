@@ -114,6 +114,35 @@ namespace Perimorph::Coupling
     // No plane along a bond can cut it.
     EXPECT_TRUE(std::isinf(row.load(1, 2, {{0., 1.}}).load_factor));
 
+    // Nor does it hide the failure in another material, in either order.
+    for (const bool first_fails_alone : {true, false})
+      {
+        Row both;
+        both.states.laws = {};
+        for (unsigned int n = 0; n < 2; ++n)
+          {
+            both.states.laws.entries.push_back(0);
+            both.states.laws.entries.push_back(1);
+            both.states.laws.close_row();
+          }
+        // Along y: across the fibres of one, along those of the other.
+        for (unsigned int p = 0; p < 4; ++p)
+          {
+            both.set(p, 0.);
+            both.states.particles[p].stress[1][1] = p % 2 == 0 ? 20. : 0.;
+            both.states.particles[p].stress[0][0] = p % 2 == 1 ? 20. : 0.;
+          }
+        if (!first_fails_alone)
+          {
+            std::swap(both.materials.axes[0], both.materials.axes[1]);
+            std::swap(both.table.materials[0], both.table.materials[1]);
+            std::swap(both.states.particles[0], both.states.particles[1]);
+            std::swap(both.states.particles[2], both.states.particles[3]);
+          }
+        // The second has 5 across its fibres, the plane of which is along y.
+        EXPECT_NEAR(both.load(0, 1, {{0., 1.}}).load_factor, 0.5, 1e-14);
+      }
+
     row.table.opens_planes = false;
     EXPECT_NEAR(row.load(1, 2, {{0., 1.}}).load_factor, 5. / 2., 1e-14);
     EXPECT_EQ(row.load(1, 2, {{1., 0.}}).normal.norm(), 0.);

@@ -23,8 +23,8 @@ namespace Perimorph::Testing
     Fracture::MaterialList<2>         materials;
     std::vector<dealii::Tensor<1, 2>> displacement;
     Bonds::CrackSet<2>                cracks;
-    /// DeformedBody::stress_divergence
-    std::vector<dealii::Tensor<1, 2>> stress_divergence = {};
+    /// DeformedBody::acceleration, of density 1
+    std::vector<dealii::Tensor<1, 2>> acceleration = {};
 
     /// @param law  isotropic; empty: that of the field
     Plate(const unsigned int n_cells,
@@ -57,10 +57,8 @@ namespace Perimorph::Testing
     Fracture::StressPointSet<2>
     points(const Source source) const
     {
-      const Fracture::DeformedBody<2> body = {mesh,
-                                              materials,
-                                              displacement,
-                                              stress_divergence};
+      const Fracture::DeformedBody<2> body =
+        {mesh, materials, displacement, {}, acceleration, {1.}};
       const auto region = Fracture::nodes_within<2>(mesh, {field.tip}, 0.9);
       const auto fit    = Fracture::visible_fit(mesh, cracks);
       Fracture::StressPointSet<2> set;

@@ -106,9 +106,9 @@ namespace
     void
     accelerate()
     {
-      stress_divergence.clear();
+      acceleration.clear();
       for (const double volume : moved_volume(mesh, cracks))
-        stress_divergence.push_back(volume * LinearStress().divergence(field));
+        acceleration.push_back(volume * LinearStress().divergence(field));
     }
   };
 
@@ -189,7 +189,7 @@ namespace
   {
     const AcceleratedPlate plate(40, 0.52, 0.2);
     AcceleratedPlate       at_rest(40, 0.52, 0.2);
-    at_rest.stress_divergence.clear();
+    at_rest.acceleration.clear();
     const auto                        set   = plate.points(Source::cells);
     const auto                        other = at_rest.points(Source::cells);
     const auto                       &exact = plate.field;
@@ -222,7 +222,7 @@ namespace
     auto at_rest   = AcceleratedPlate(40, 0., 0.);
     at_rest.field  = plate.field;
     at_rest.cracks = plate.field.crack();
-    at_rest.stress_divergence.clear();
+    at_rest.acceleration.clear();
     for (unsigned int n = 0; n < plate.mesh.n_nodes(); ++n)
       {
         // nodes on the crack belong to its lower side
