@@ -435,6 +435,35 @@ def crack_in_composite(study):
                 before = errors
 
 
+def mirrored_densities(study):
+    """A crack between two materials that differ in their densities only, and the
+    same upside down: inertia in the integrals is that of each side."""
+    if not study.part("crack between two densities"):
+        return
+    law = "C11 = 100e9, C12 = 30e9, C22 = 100e9, C66 = 35e9"
+    solutions = [
+        study.solve("delamination.prm", {
+            "Mode": "finite elements",
+            "Mesh/geometry parameters": "nx = 80, ny = 20",
+            "Material/constants": law,
+            "Material/density": below,
+            "Material/by volume": "upper: %s, density = %s" % (law, above),
+            "Peridynamics/around": "",
+            "Cracks/pre-cracks": "edge: -0.075 0 to -0.045 0",
+            "Cracks/growth": "none",
+            "Cracks/strengths": "",
+            "Cracks/strengths by volume": "",
+            "Cracks/interface strengths": "",
+            "Cracks/criterion": "automatic",
+            "Load steps/end time": 30e-6
+        }) for below, above in ((1600, 5670), (5670, 1600))
+    ]
+    for name, sign in (("J", 1.), ("K_I", 1.), ("K_II", -1.)):
+        first, second = (solution["edge_tip1_" + name]
+                         for solution in solutions)
+        study.within(name, first, sign * second, 1e-6 * abs(second))
+
+
 def relaxation(study):
     """The static answer without a matrix. What is zero is compared with the
     largest number of its kind, reactions with the force that does the work;
@@ -477,6 +506,7 @@ def main():
     crack_in_motion(study)
     inclusion_and_hole(study)
     crack_in_composite(study)
+    mirrored_densities(study)
     relaxation(study)
     study.finish()
 
