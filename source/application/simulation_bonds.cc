@@ -262,9 +262,9 @@ namespace Perimorph::Application
 
   template <int dim>
   bool
-  Simulation<dim>::break_bonds(Method                      &method,
-                               const std::vector<BondLoad> &bonds,
-                               const Step                  &step)
+  Simulation<dim>::break_bonds(Method               &method,
+                               std::vector<BondLoad> bonds,
+                               const Step           &step)
   {
     if (!broken_table)
       {
@@ -280,6 +280,14 @@ namespace Perimorph::Application
     const auto state = gather(method);
     if (broken.empty())
       parts_at_start = n_parts(method, state);
+    const Coupling::OrderByPlace<dim> order{mesh->nodal().nodes};
+    for (auto &bond : bonds)
+      std::sort(bond.nodes.begin(), bond.nodes.end(), order);
+    std::sort(bonds.begin(),
+              bonds.end(),
+              [&](const auto &one, const auto &two) {
+                return order(one.nodes, two.nodes);
+              });
     ++n_events;
     double stored = 0.;
     for (const auto &bond : bonds)
@@ -420,26 +428,26 @@ namespace Perimorph::Application
     return true;
   }
 
-#define PERIMORPH_INSTANTIATE(dim)                                                  \
-  template void Simulation<dim>::warn_of_bond_criteria() const;                     \
-  template std::vector<Simulation<dim>::BondLoad> Simulation<dim>::bond_loads(      \
-    const Method &) const;                                                          \
-  template std::vector<Simulation<dim>::BondLoad>                                   \
-  Simulation<dim>::lowest_loads(const Method &,                                     \
-                                double,                                             \
-                                std::vector<BondLoad> &);                           \
-  template std::vector<Simulation<dim>::BondLoad>                                   \
-                        Simulation<dim>::next_to_break(Method &, double);           \
-  template unsigned int Simulation<dim>::n_parts(const Method &,                    \
-                                                 const State<dim> &) const;         \
-  template bool         Simulation<dim>::break_bonds(Method &,                      \
-                                             const std::vector<BondLoad> &, \
-                                             const Step &);                 \
-  template bool         Simulation<dim>::follow_bond_events(Method &,               \
-                                                    const OnStep &,         \
-                                                    const OnNewton &);      \
-  template bool         Simulation<dim>::break_overloaded_bonds(Method &,           \
-                                                        Step &,             \
+#define PERIMORPH_INSTANTIATE(dim)                                             \
+  template void Simulation<dim>::warn_of_bond_criteria() const;                \
+  template std::vector<Simulation<dim>::BondLoad> Simulation<dim>::bond_loads( \
+    const Method &) const;                                                     \
+  template std::vector<Simulation<dim>::BondLoad>                              \
+  Simulation<dim>::lowest_loads(const Method &,                                \
+                                double,                                        \
+                                std::vector<BondLoad> &);                      \
+  template std::vector<Simulation<dim>::BondLoad>                              \
+                        Simulation<dim>::next_to_break(Method &, double);      \
+  template unsigned int Simulation<dim>::n_parts(const Method &,               \
+                                                 const State<dim> &) const;    \
+  template bool         Simulation<dim>::break_bonds(Method &,                 \
+                                             std::vector<BondLoad>,    \
+                                             const Step &);            \
+  template bool         Simulation<dim>::follow_bond_events(Method &,          \
+                                                    const OnStep &,    \
+                                                    const OnNewton &); \
+  template bool         Simulation<dim>::break_overloaded_bonds(Method &,      \
+                                                        Step &,        \
                                                         const OnStep &);
 
   PERIMORPH_INSTANTIATE(2)

@@ -91,21 +91,10 @@ namespace Perimorph::Application
         columns.push_back("share_left");
         broken_table = &open_table("broken_bonds.csv", columns);
       }
-    // By place: the numbers of nodes depend on the number of ranks.
-    const auto &places = mesh->nodal().nodes;
-    const auto  less   = [&](const unsigned int a, const unsigned int b) {
-      for (int d = 0; d < dim; ++d)
-        if (places[a][d] != places[b][d])
-          return places[a][d] < places[b][d];
-      return a < b;
-    };
+    const Coupling::OrderByPlace<dim> order{mesh->nodal().nodes};
     for (auto &bond : found.nodes)
-      std::sort(bond.begin(), bond.end(), less);
-    std::sort(found.nodes.begin(),
-              found.nodes.end(),
-              [&](const auto &a, const auto &b) {
-                return a[0] == b[0] ? less(a[1], b[1]) : less(a[0], b[0]);
-              });
+      std::sort(bond.begin(), bond.end(), order);
+    std::sort(found.nodes.begin(), found.nodes.end(), order);
     ++n_events;
     const double before = method.problem->strain_energy(u);
     for (const auto &bond : found.nodes)

@@ -391,9 +391,7 @@ namespace Perimorph::Application
     /// Breaks bonds at fixed loads and accounts for the energies.
     /// @return  false if the body falls apart
     bool
-    break_bonds(Method                      &method,
-                const std::vector<BondLoad> &bonds,
-                const Step                  &step);
+    break_bonds(Method &method, std::vector<BondLoad> bonds, const Step &step);
     /// Makes cracks of the bonds that broke, once the longest of them reaches
     /// 'hand over length': they grow by segments while they have tips. Tips are
     /// put where the potential energy at fixed loads changes least; the change

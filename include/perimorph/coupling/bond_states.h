@@ -28,6 +28,31 @@ namespace Perimorph::Coupling
                 const dealii::Tensor<1, dim> &eta,
                 Damage::BondState            &bond);
 
+  /// Order of nodes and bonds by place: their numbers depend on the number of
+  /// ranks.
+  template <int dim>
+  struct OrderByPlace
+  {
+    const std::vector<dealii::Point<dim>> &places; ///< of nodes
+
+    bool
+    operator()(const unsigned int a, const unsigned int b) const
+    {
+      for (int d = 0; d < dim; ++d)
+        if (places[a][d] != places[b][d])
+          return places[a][d] < places[b][d];
+      return a < b;
+    }
+
+    /// Of bonds whose ends are in order.
+    bool
+    operator()(const std::array<unsigned int, 2> &a,
+               const std::array<unsigned int, 2> &b) const
+    {
+      return a[0] == b[0] ? (*this)(a[1], b[1]) : (*this)(a[0], b[0]);
+    }
+  };
+
   /// Nodes whose whole families are peridynamic: nothing else holds there what
   /// their bonds let go. The same on all ranks.
   /// @param pairs  bonds of this rank: two nodes each
