@@ -56,6 +56,18 @@ PULLED = dict(STRIP, **{
     "Load steps/number of steps": "20",
 })
 
+# Split along its fibres.
+COMPOSITE = {
+    "Material/law": "orthotropic",
+    "Material/Young's modulus": None,
+    "Material/Poisson's ratio": None,
+    "Material/constants": "E1 = 5, E2 = 1, nu12 = 0.3, G12 = 0.4",
+    "Material/orientation": "30",
+    "Cracks/criterion": "tsai-hill",
+    "Cracks/fracture energy": None,
+    "Cracks/strengths": "X = 50, Y = 2, S = 2",
+}
+
 # name, entries, rows of the table of steps at which it may be killed
 CASES = [
     # The plate turns, Newton's few iterations make cuts: both have a memory.
@@ -124,19 +136,11 @@ CASES = [
         "Load steps/end time": "1.6",
         "Load steps/number of steps": "4",
     }), (1, 6)),
-    ("planes that open by events", dict(STRIP, **{
+    ("planes that open by events", dict({**STRIP,
         "Cracks/growth": "bonds",
         "Cracks/growth control": "events",
         "Cracks/maximum advances": "5",
-        "Material/law": "orthotropic",
-        "Material/Young's modulus": None,
-        "Material/Poisson's ratio": None,
-        "Material/constants": "E1 = 5, E2 = 1, nu12 = 0.3, G12 = 0.4",
-        "Material/orientation": "30",
-        "Cracks/criterion": "tsai-hill",
-        "Cracks/fracture energy": None,
-        "Cracks/strengths": "X = 50, Y = 2, S = 2",
-    }), (1, 8)),
+    }, **COMPOSITE), (1, 8)),
     ("explicit motion with families that break", dict(PULLED, **{
         "Time integration/scheme": "explicit",
     }), (2, 10)),
@@ -144,17 +148,9 @@ CASES = [
         "Time integration/scheme": "explicit",
         "Peridynamics/model": "bond based",
     }), (2, 10)),
-    ("explicit motion with planes that open", dict(PULLED, **{
+    ("explicit motion with planes that open", dict({**PULLED,
         "Time integration/scheme": "explicit",
-        "Material/law": "orthotropic",
-        "Material/Young's modulus": None,
-        "Material/Poisson's ratio": None,
-        "Material/constants": "E1 = 5, E2 = 1, nu12 = 0.3, G12 = 0.4",
-        "Material/orientation": "30",
-        "Cracks/criterion": "tsai-hill",
-        "Cracks/fracture energy": None,
-        "Cracks/strengths": "X = 50, Y = 2, S = 2",
-    }), (2, 10)),
+    }, **COMPOSITE), (2, 10)),
     ("implicit motion with families that break", dict(PULLED, **{
         "Time integration/scheme": "implicit",
         "Time integration/time step": "0.05",
