@@ -12,6 +12,10 @@ namespace Perimorph::Coupling
 {
   namespace
   {
+    /// On lattices many distances are equal but for round-off, which depends on
+    /// the number of ranks: comparisons look beyond it.
+    constexpr double slack = 1. + 1e-6;
+
     template <int dim>
     using Tree =
       bgi::rtree<std::pair<dealii::Point<dim>, std::size_t>, bgi::linear<16>>;
@@ -66,7 +70,7 @@ namespace Perimorph::Coupling
   {
     dealii::Point<dim> place;
     return crossing(first, second, center, normal, place) &&
-           place.distance(center) <= radius;
+           place.distance(center) <= slack * radius;
   }
 
   template <int dim>
@@ -173,7 +177,7 @@ namespace Perimorph::Coupling
         if (cut(bond.ends[0], bond.ends[1]))
           continue;
         // A horizon beyond the edge of a plane.
-        const double reach    = (1. + half) * bond.horizon;
+        const double reach    = slack * (1. + half) * bond.horizon;
         const auto   center   = middle(bond.ends[0], bond.ends[1]);
         auto         next     = center;
         double       distance = std::numeric_limits<double>::infinity();
@@ -190,7 +194,7 @@ namespace Perimorph::Coupling
               // Ahead: less beside the plane than along it.
               is_alone =
                 is_alone && (tree == &trees->tips || away.norm() > reach ||
-                             away.norm_square() < 2. * beside * beside);
+                             away.norm_square() < slack * 2. * beside * beside);
               if (!crossing(bond.ends[0],
                             bond.ends[1],
                             entry->first,
@@ -198,7 +202,7 @@ namespace Perimorph::Coupling
                             at))
                 continue;
               const double d = at.distance(entry->first);
-              if (d <= reach && d < distance)
+              if (d <= reach && slack * d < distance)
                 {
                   distance = d;
                   next     = at;
@@ -229,8 +233,8 @@ namespace Perimorph::Coupling
   FailurePlanes<dim>::is_near(const dealii::Point<dim> &point,
                               const double              distance) const
   {
-    return trees->planes.qbegin(
-             bgi::intersects(box_around(point, distance + largest_radius))) !=
+    return trees->planes.qbegin(bgi::intersects(
+             box_around(point, slack * (distance + largest_radius)))) !=
            trees->planes.qend();
   }
 
@@ -239,8 +243,9 @@ namespace Perimorph::Coupling
   FailurePlanes<dim>::cut(const dealii::Point<dim> &first,
                           const dealii::Point<dim> &second) const
   {
-    const auto box = box_around(middle(first, second),
-                                0.5 * first.distance(second) + largest_radius);
+    const auto box =
+      box_around(middle(first, second),
+                 slack * (0.5 * first.distance(second) + largest_radius));
     for (auto entry = trees->planes.qbegin(bgi::intersects(box));
          entry != trees->planes.qend();
          ++entry)
