@@ -333,7 +333,8 @@ namespace Perimorph::Application
     log << "Resumed from '" << checkpoint_file(parameters.output_folder)
         << "': step " << progress.step.number << ", t = " << progress.step.time
         << std::endl;
-    if (progress.number == 0)
+    // A motion has a state before its first step, with rows in the tables.
+    if (progress.number == 0 && arrays.count("velocity") == 0)
       {
         resumed.reset();
         return;

@@ -151,6 +151,10 @@ CASES = [
     ("explicit motion with planes that open", dict({**PULLED,
         "Time integration/scheme": "explicit",
     }, **COMPOSITE), (2, 10)),
+    ("explicit motion from its initial state", dict(PULLED, **{
+        "Time integration/scheme": "explicit",
+        "Time integration/field interval": "1.6",
+    }), (3, 15)),
     ("implicit motion with families that break", dict(PULLED, **{
         "Time integration/scheme": "implicit",
         "Time integration/time step": "0.05",
