@@ -273,46 +273,6 @@ namespace Perimorph::Application
 
   template <int dim>
   void
-  store_advances(const Bonds::CrackSet<dim> &cracks,
-                 Output::Checkpoint         &checkpoint)
-  {
-    auto &corners  = checkpoint.arrays["corners of advances"];
-    auto &advances = checkpoint.arrays["numbers of advances"];
-    auto &numbers  = checkpoint.arrays["cracks of advances"];
-    for (auto *array : {&corners, &advances, &numbers})
-      array->clear();
-    for (const auto &facet : cracks.facets())
-      if (facet.step > 0)
-        {
-          for (const auto &corner : facet.corners)
-            for (int d = 0; d < dim; ++d)
-              corners.push_back(corner[d]);
-          advances.push_back(facet.step);
-          numbers.push_back(facet.crack);
-        }
-  }
-
-  template <int dim>
-  std::vector<Bonds::CrackFacet<dim>>
-  stored_advances(const Output::Checkpoint &checkpoint)
-  {
-    const auto &corners  = checkpoint.arrays.at("corners of advances");
-    const auto &advances = checkpoint.arrays.at("numbers of advances");
-    const auto &numbers  = checkpoint.arrays.at("cracks of advances");
-    std::vector<Bonds::CrackFacet<dim>> facets(advances.size());
-    for (std::size_t k = 0; k < facets.size(); ++k)
-      {
-        for (int c = 0; c < dim; ++c)
-          for (int d = 0; d < dim; ++d)
-            facets[k].corners[c][d] = corners[dim * (dim * k + c) + d];
-        facets[k].step  = static_cast<unsigned int>(advances[k]);
-        facets[k].crack = static_cast<unsigned int>(numbers[k]);
-      }
-    return facets;
-  }
-
-  template <int dim>
-  void
   store_points(const std::vector<dealii::Point<dim>> &points,
                std::vector<double>                   &numbers)
   {
@@ -331,6 +291,47 @@ namespace Perimorph::Application
       for (int d = 0; d < dim; ++d)
         points[k][d] = numbers[dim * k + d];
     return points;
+  }
+
+  template <int dim>
+  void
+  store_advances(const Bonds::CrackSet<dim> &cracks,
+                 Output::Checkpoint         &checkpoint)
+  {
+    std::vector<dealii::Point<dim>> corners;
+    auto &advances = checkpoint.arrays["numbers of advances"];
+    auto &numbers  = checkpoint.arrays["cracks of advances"];
+    for (auto *array : {&advances, &numbers})
+      array->clear();
+    for (const auto &facet : cracks.facets())
+      if (facet.step > 0)
+        {
+          corners.insert(corners.end(),
+                         facet.corners.begin(),
+                         facet.corners.end());
+          advances.push_back(facet.step);
+          numbers.push_back(facet.crack);
+        }
+    store_points(corners, checkpoint.arrays["corners of advances"]);
+  }
+
+  template <int dim>
+  std::vector<Bonds::CrackFacet<dim>>
+  stored_advances(const Output::Checkpoint &checkpoint)
+  {
+    const auto corners =
+      stored_points<dim>(checkpoint.arrays.at("corners of advances"));
+    const auto &advances = checkpoint.arrays.at("numbers of advances");
+    const auto &numbers  = checkpoint.arrays.at("cracks of advances");
+    std::vector<Bonds::CrackFacet<dim>> facets(advances.size());
+    for (std::size_t k = 0; k < facets.size(); ++k)
+      {
+        for (int c = 0; c < dim; ++c)
+          facets[k].corners[c] = corners[dim * k + c];
+        facets[k].step  = static_cast<unsigned int>(advances[k]);
+        facets[k].crack = static_cast<unsigned int>(numbers[k]);
+      }
+    return facets;
   }
 
   template <int dim>

@@ -81,7 +81,7 @@ namespace Perimorph::Application
   }
 
   template <int dim>
-  std::vector<typename Simulation<dim>::BondLoad>
+  std::vector<BondLoad>
   Simulation<dim>::bond_loads(const Method &method) const
   {
     const auto &nodal = mesh->nodal();
@@ -159,7 +159,7 @@ namespace Perimorph::Application
   }
 
   template <int dim>
-  std::vector<typename Simulation<dim>::BondLoad>
+  std::vector<BondLoad>
   Simulation<dim>::lowest_loads(const Method          &method,
                                 const double           limit,
                                 std::vector<BondLoad> &loads)
@@ -180,10 +180,7 @@ namespace Perimorph::Application
         std::vector<Coupling::OverloadedBond> openers;
         for (const auto &bond : loads)
           if (bond.factor <= highest && !breaks_alone(bond))
-            openers.push_back(
-              {bond.nodes,
-               bond.factor,
-               {{bond.normal[0], bond.normal[1], bond.normal[2]}}});
+            openers.push_back({bond.nodes, bond.factor, bond.normal});
         failure_planes.open(openers, nodes, method.region.horizon);
         for (auto &bond : loads)
           {
@@ -199,7 +196,7 @@ namespace Perimorph::Application
   }
 
   template <int dim>
-  std::vector<typename Simulation<dim>::BondLoad>
+  std::vector<BondLoad>
   Simulation<dim>::next_to_break(Method &method, const double limit)
   {
     while (true)
@@ -261,21 +258,42 @@ namespace Perimorph::Application
   }
 
   template <int dim>
+  void
+  Simulation<dim>::break_bond(const std::array<unsigned int, 2> &nodes,
+                              const Output::CsvCell             &step,
+                              const double                       time,
+                              const std::optional<double>       &energy)
+  {
+    if (!broken_table)
+      {
+        std::vector<std::string> columns = {"event",
+                                            "step",
+                                            energy ? "load_factor" : "time"};
+        for (const std::string end : {"1", "2"})
+          for (int d = 0; d < dim; ++d)
+            columns.push_back(std::string(1, "xyz"[d]) + end);
+        if (energy)
+          columns.push_back("energy");
+        columns.push_back("share_left");
+        broken_table = &open_table("broken_bonds.csv", columns);
+      }
+    broken.add(nodes[0], nodes[1], n_events);
+    std::vector<Output::CsvCell> row = {n_events, step, time};
+    for (const unsigned int n : nodes)
+      for (int d = 0; d < dim; ++d)
+        row.push_back(mesh->nodal().nodes[n][d]);
+    if (energy)
+      row.push_back(*energy);
+    row.push_back(broken.share_left(nodes[0], nodes[1]));
+    broken_table->write_row(row);
+  }
+
+  template <int dim>
   bool
   Simulation<dim>::break_bonds(Method               &method,
                                std::vector<BondLoad> bonds,
                                const Step           &step)
   {
-    if (!broken_table)
-      {
-        std::vector<std::string> columns = {"event", "step", "load_factor"};
-        for (const std::string end : {"1", "2"})
-          for (int d = 0; d < dim; ++d)
-            columns.push_back(std::string(1, "xyz"[d]) + end);
-        columns.push_back("energy");
-        columns.push_back("share_left");
-        broken_table = &open_table("broken_bonds.csv", columns);
-      }
     failure_planes.keep();
     const auto state = gather(method);
     if (broken.empty())
@@ -292,15 +310,8 @@ namespace Perimorph::Application
     double stored = 0.;
     for (const auto &bond : bonds)
       {
-        broken.add(bond.nodes[0], bond.nodes[1], n_events);
         stored += bond.energy;
-        std::vector<Output::CsvCell> row = {n_events, step.number, method.time};
-        for (const unsigned int n : bond.nodes)
-          for (int d = 0; d < dim; ++d)
-            row.push_back(mesh->nodal().nodes[n][d]);
-        row.push_back(bond.energy);
-        row.push_back(broken.share_left(bond.nodes[0], bond.nodes[1]));
-        broken_table->write_row(row);
+        break_bond(bond.nodes, step.number, method.time, bond.energy);
       }
     auto next = make_method(method.region, cracks, method.problem->shared());
     next.time = method.time;
@@ -428,26 +439,31 @@ namespace Perimorph::Application
     return true;
   }
 
-#define PERIMORPH_INSTANTIATE(dim)                                             \
-  template void Simulation<dim>::warn_of_bond_criteria() const;                \
-  template std::vector<Simulation<dim>::BondLoad> Simulation<dim>::bond_loads( \
-    const Method &) const;                                                     \
-  template std::vector<Simulation<dim>::BondLoad>                              \
-  Simulation<dim>::lowest_loads(const Method &,                                \
-                                double,                                        \
-                                std::vector<BondLoad> &);                      \
-  template std::vector<Simulation<dim>::BondLoad>                              \
-                        Simulation<dim>::next_to_break(Method &, double);      \
-  template unsigned int Simulation<dim>::n_parts(const Method &,               \
-                                                 const State<dim> &) const;    \
-  template bool         Simulation<dim>::break_bonds(Method &,                 \
-                                             std::vector<BondLoad>,    \
-                                             const Step &);            \
-  template bool         Simulation<dim>::follow_bond_events(Method &,          \
-                                                    const OnStep &,    \
-                                                    const OnNewton &); \
-  template bool         Simulation<dim>::break_overloaded_bonds(Method &,      \
-                                                        Step &,        \
+#define PERIMORPH_INSTANTIATE(dim)                                                   \
+  template void                  Simulation<dim>::warn_of_bond_criteria() const;     \
+  template std::vector<BondLoad> Simulation<dim>::bond_loads(const Method &)         \
+    const;                                                                           \
+  template std::vector<BondLoad> Simulation<dim>::lowest_loads(                      \
+    const Method &,                                                                  \
+    double,                                                                          \
+    std::vector<BondLoad> &);                                                        \
+  template std::vector<BondLoad> Simulation<dim>::next_to_break(Method &,            \
+                                                                double);             \
+  template unsigned int          Simulation<dim>::n_parts(const Method &,            \
+                                                 const State<dim> &) const; \
+  template void                  Simulation<dim>::break_bond(                        \
+    const std::array<unsigned int, 2> &,                            \
+    const Output::CsvCell &,                                        \
+    double,                                                         \
+    const std::optional<double> &);                                 \
+  template bool Simulation<dim>::break_bonds(Method &,                               \
+                                             std::vector<BondLoad>,                  \
+                                             const Step &);                          \
+  template bool Simulation<dim>::follow_bond_events(Method &,                        \
+                                                    const OnStep &,                  \
+                                                    const OnNewton &);               \
+  template bool Simulation<dim>::break_overloaded_bonds(Method &,                    \
+                                                        Step &,                      \
                                                         const OnStep &);
 
   PERIMORPH_INSTANTIATE(2)

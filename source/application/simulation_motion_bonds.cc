@@ -82,15 +82,6 @@ namespace Perimorph::Application
         // The next step breaks what is still overloaded.
         return MotionChange::region;
       }
-    if (!broken_table)
-      {
-        std::vector<std::string> columns = {"event", "step", "time"};
-        for (const std::string end : {"1", "2"})
-          for (int d = 0; d < dim; ++d)
-            columns.push_back(std::string(1, "xyz"[d]) + end);
-        columns.push_back("share_left");
-        broken_table = &open_table("broken_bonds.csv", columns);
-      }
     const Coupling::OrderByPlace<dim> order{mesh->nodal().nodes};
     for (auto &bond : found.nodes)
       std::sort(bond.begin(), bond.end(), order);
@@ -98,17 +89,7 @@ namespace Perimorph::Application
     ++n_events;
     const double before = method.problem->strain_energy(u);
     for (const auto &bond : found.nodes)
-      {
-        broken.add(bond[0], bond[1], n_events);
-        std::vector<Output::CsvCell> row = {n_events,
-                                            n_time_steps,
-                                            method.motion.time};
-        for (const unsigned int n : bond)
-          for (int d = 0; d < dim; ++d)
-            row.push_back(mesh->nodal().nodes[n][d]);
-        row.push_back(broken.share_left(bond[0], bond[1]));
-        broken_table->write_row(row);
-      }
+      break_bond(bond, n_time_steps, method.motion.time, std::nullopt);
     failure_planes.keep();
     bonds->take_away(found.nodes);
     dissipated_energy += before - method.problem->strain_energy(u);

@@ -54,39 +54,38 @@ namespace Perimorph::Coupling
                 const std::vector<dealii::Tensor<1, dim>> &displacement,
                 const MPI_Comm                             communicator)
   {
-    std::vector<Half>                   halves;
-    std::vector<dealii::Tensor<1, dim>> xi, eta;
-    std::vector<double>                 forces;
+    std::vector<Half>   halves;
+    std::vector<double> xi, eta, forces;
     for (std::size_t p = 0; p < families.n_particles(); ++p)
       {
         const unsigned int node  = families.node[p];
         const std::size_t  begin = families.offsets[p];
         const std::size_t  n     = families.offsets[p + 1] - begin;
-        xi.resize(n);
-        eta.resize(n);
-        forces.resize(dim * n);
+        for (auto *list : {&xi, &eta, &forces})
+          list->resize(dim * n);
         for (std::size_t b = 0; b < n; ++b)
           {
             const unsigned int other = families.neighbor[begin + b];
-            xi[b]                    = mesh.nodes[other] - mesh.nodes[node];
-            eta[b]                   = displacement[other] - displacement[node];
+            for (int d = 0; d < dim; ++d)
+              {
+                xi[d * n + b]  = mesh.nodes[other][d] - mesh.nodes[node][d];
+                eta[d * n + b] = displacement[other][d] - displacement[node][d];
+              }
           }
-        using Peridynamics::by_components;
-        const auto xi_list  = by_components(xi.data(), n);
-        const auto eta_list = by_components(eta.data(), n);
-        const auto g_list =
-          by_components(families.gradient_weight.data() + begin, n);
+        const auto gradient_weight =
+          Peridynamics::by_components(families.gradient_weight.data() + begin,
+                                      n);
         const Peridynamics::Family<dim> family{static_cast<unsigned int>(n),
                                                static_cast<unsigned int>(n),
                                                n,
-                                               xi_list.data(),
-                                               g_list.data(),
+                                               xi.data(),
+                                               gradient_weight.data(),
                                                families.bond_weight.data() +
                                                  begin,
                                                families.stabilization[p]};
-        const auto H = displacement_gradient(family, eta_list.data());
+        const auto H = displacement_gradient(family, eta.data());
         family_forces(family,
-                      eta_list.data(),
+                      eta.data(),
                       H,
                       laws[families.material[p]]->first_piola_kirchhoff(H),
                       forces.data());
@@ -95,7 +94,7 @@ namespace Perimorph::Coupling
             const unsigned int other = families.neighbor[begin + b];
             double             work  = 0.;
             for (int d = 0; d < dim; ++d)
-              work += forces[d * n + b] * eta[b][d];
+              work += forces[d * n + b] * eta[d * n + b];
             halves.push_back({{{std::min(node, other), std::max(node, other)}},
                               0.5 * families.weight[p] * work});
           }

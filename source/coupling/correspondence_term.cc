@@ -179,6 +179,24 @@ namespace Perimorph::Coupling
   }
 
   template <int dim>
+  template <typename Action>
+  void
+  CorrespondenceTerm<dim>::for_families(const Vector &vector,
+                                        const Action &action) const
+  {
+    std::vector<double> eta(dim * largest_family), next_eta(eta);
+    if (families.n_particles() > 0)
+      relative_displacements(0, vector.begin(), next_eta.data());
+    for (unsigned int p = 0; p < families.n_particles(); ++p)
+      {
+        eta.swap(next_eta);
+        if (p + 1 < families.n_particles())
+          relative_displacements(p + 1, vector.begin(), next_eta.data());
+        action(p, eta.data());
+      }
+  }
+
+  template <int dim>
   void
   CorrespondenceTerm<dim>::scatter(const unsigned int   particle,
                                    std::vector<double> &forces,
@@ -241,27 +259,17 @@ namespace Perimorph::Coupling
   CorrespondenceTerm<dim>::add_residual(const Vector &displacement,
                                         Vector       &residual) const
   {
-    std::vector<double> eta(dim * largest_family);
-    std::vector<double> next_eta(dim * largest_family);
     std::vector<double> forces(dim * largest_family);
-    if (families.n_particles() > 0)
-      relative_displacements(0, displacement.begin(), next_eta.data());
-    for (unsigned int p = 0; p < families.n_particles(); ++p)
-      {
-        // One family ahead: lanes that are read wait until what was written to
-        // them one by one is in the cache.
-        eta.swap(next_eta);
-        if (p + 1 < families.n_particles())
-          relative_displacements(p + 1, displacement.begin(), next_eta.data());
-        const auto             one = family(p);
-        const auto             H   = displacement_gradient(one, eta.data());
-        dealii::Tensor<2, dim> P;
-        this->at_place(position[p], [&]() {
-          P = materials[families.material[p]]->first_piola_kirchhoff(H);
-        });
-        family_forces(one, eta.data(), H, P, forces.data());
-        scatter(p, forces, residual.begin());
-      }
+    for_families(displacement, [&](const unsigned int p, const double *eta) {
+      const auto             one = family(p);
+      const auto             H   = displacement_gradient(one, eta);
+      dealii::Tensor<2, dim> P;
+      this->at_place(position[p], [&]() {
+        P = materials[families.material[p]]->first_piola_kirchhoff(H);
+      });
+      family_forces(one, eta, H, P, forces.data());
+      scatter(p, forces, residual.begin());
+    });
   }
 
   template <int dim>
@@ -270,38 +278,31 @@ namespace Perimorph::Coupling
                                                const Vector &direction,
                                                Vector       &product) const
   {
-    std::vector<double>                 eta(dim * largest_family);
-    std::vector<double>                 forces(dim * largest_family);
-    const bool                          linear = is_linear();
+    const bool          linear = is_linear();
+    std::vector<double> of_state(linear ? 0 : dim * largest_family);
+    std::vector<double> forces(dim * largest_family);
     std::vector<dealii::Tensor<4, dim>> constant_tangent;
     if (linear)
       for (const auto &material : materials)
         constant_tangent.push_back(material->tangent(dealii::Tensor<2, dim>()));
 
-    std::vector<double> next_eta(dim * largest_family);
-    if (families.n_particles() > 0)
-      relative_displacements(0, direction.begin(), next_eta.data());
-    for (unsigned int p = 0; p < families.n_particles(); ++p)
-      {
-        const auto one      = family(p);
-        const auto material = families.material[p];
+    for_families(direction, [&](const unsigned int p, const double *eta) {
+      const auto one      = family(p);
+      const auto material = families.material[p];
 
-        dealii::Tensor<4, dim> A;
-        if (linear)
-          A = constant_tangent[material];
-        else
-          {
-            relative_displacements(p, displacement.begin(), eta.data());
-            A = particle_tangent(p, displacement_gradient(one, eta.data()));
-          }
-        eta.swap(next_eta);
-        if (p + 1 < families.n_particles())
-          relative_displacements(p + 1, direction.begin(), next_eta.data());
-        const auto dH = displacement_gradient(one, eta.data());
-        const auto dP = dealii::double_contract<2, 0, 3, 1>(A, dH);
-        family_forces(one, eta.data(), dH, dP, forces.data());
-        scatter(p, forces, product.begin());
-      }
+      dealii::Tensor<4, dim> A;
+      if (linear)
+        A = constant_tangent[material];
+      else
+        {
+          relative_displacements(p, displacement.begin(), of_state.data());
+          A = particle_tangent(p, displacement_gradient(one, of_state.data()));
+        }
+      const auto dH = displacement_gradient(one, eta);
+      const auto dP = dealii::double_contract<2, 0, 3, 1>(A, dH);
+      family_forces(one, eta, dH, dP, forces.data());
+      scatter(p, forces, product.begin());
+    });
   }
 
   template <int dim>

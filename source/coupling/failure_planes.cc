@@ -1,3 +1,4 @@
+#include <perimorph/coupling/bond_states.h>
 #include <perimorph/coupling/failure_planes.h>
 
 #include <deal.II/numerics/rtree.h>
@@ -24,13 +25,9 @@ namespace Perimorph::Coupling
     dealii::BoundingBox<dim>
     box_around(const dealii::Point<dim> &point, const double distance)
     {
-      dealii::Point<dim> low = point, high = point;
-      for (int d = 0; d < dim; ++d)
-        {
-          low[d] -= distance;
-          high[d] += distance;
-        }
-      return dealii::BoundingBox<dim>(std::make_pair(low, high));
+      dealii::BoundingBox<dim> box(std::make_pair(point, point));
+      box.extend(distance);
+      return box;
     }
 
     template <int dim>
@@ -111,7 +108,7 @@ namespace Perimorph::Coupling
 
   template <int dim>
   void
-  FailurePlanes<dim>::open(std::vector<OverloadedBond>            bonds,
+  FailurePlanes<dim>::open(const std::vector<OverloadedBond>     &bonds,
                            const std::vector<dealii::Point<dim>> &nodes,
                            const std::vector<double>             &horizon)
   {
@@ -126,19 +123,13 @@ namespace Perimorph::Coupling
 
     struct Candidate
     {
-      double                            load;
-      std::array<dealii::Point<dim>, 2> ends;
-      dealii::Tensor<1, dim>            normal;
-      double                            horizon;
+      double                      load;
+      std::array<unsigned int, 2> nodes;
+      dealii::Tensor<1, dim>      normal;
+      double                      horizon;
     };
-    const auto less = [](const dealii::Point<dim> &a,
-                         const dealii::Point<dim> &b) {
-      for (int d = 0; d < dim; ++d)
-        if (a[d] != b[d])
-          return a[d] < b[d];
-      return false;
-    };
-    double lowest = std::numeric_limits<double>::infinity();
+    const OrderByPlace<dim> order{nodes};
+    double                  lowest = std::numeric_limits<double>::infinity();
     for (const auto &bond : bonds)
       lowest = std::min(lowest, bond.load_factor);
     std::vector<Candidate> candidates;
@@ -150,19 +141,16 @@ namespace Perimorph::Coupling
         if (one.normal.norm_square() == 0.)
           continue;
         one.load    = std::round(bond.load_factor / lowest * digits);
-        one.ends    = {{nodes[bond.nodes[0]], nodes[bond.nodes[1]]}};
+        one.nodes   = bond.nodes;
         one.horizon = 0.5 * (horizon[bond.nodes[0]] + horizon[bond.nodes[1]]);
-        if (less(one.ends[1], one.ends[0]))
-          std::swap(one.ends[0], one.ends[1]);
+        std::sort(one.nodes.begin(), one.nodes.end(), order);
         candidates.push_back(one);
       }
     std::sort(candidates.begin(),
               candidates.end(),
               [&](const Candidate &a, const Candidate &b) {
-                if (a.load != b.load)
-                  return a.load < b.load;
-                return a.ends[0] == b.ends[0] ? less(a.ends[1], b.ends[1])
-                                              : less(a.ends[0], b.ends[0]);
+                return a.load == b.load ? order(a.nodes, b.nodes)
+                                        : a.load < b.load;
               });
 
     const auto open_at = [&](const dealii::Point<dim> &center,
@@ -174,11 +162,13 @@ namespace Perimorph::Coupling
     std::vector<const Candidate *> elsewhere;
     for (const auto &bond : candidates)
       {
-        if (cut(bond.ends[0], bond.ends[1]))
+        const auto &first  = nodes[bond.nodes[0]];
+        const auto &second = nodes[bond.nodes[1]];
+        if (cut(first, second))
           continue;
         // A horizon beyond the edge of a plane.
         const double reach    = slack * (1. + half) * bond.horizon;
-        const auto   center   = middle(bond.ends[0], bond.ends[1]);
+        const auto   center   = middle(first, second);
         auto         next     = center;
         double       distance = std::numeric_limits<double>::infinity();
         bool         is_alone = true;
@@ -195,11 +185,7 @@ namespace Perimorph::Coupling
               is_alone =
                 is_alone && (tree == &trees->tips || away.norm() > reach ||
                              away.norm_square() < slack * 2. * beside * beside);
-              if (!crossing(bond.ends[0],
-                            bond.ends[1],
-                            entry->first,
-                            bond.normal,
-                            at))
+              if (!crossing(first, second, entry->first, bond.normal, at))
                 continue;
               const double d = at.distance(entry->first);
               if (d <= reach && slack * d < distance)
@@ -215,7 +201,8 @@ namespace Perimorph::Coupling
       }
     for (const auto *bond : elsewhere)
       {
-        const auto center = middle(bond->ends[0], bond->ends[1]);
+        const auto center =
+          middle(nodes[bond->nodes[0]], nodes[bond->nodes[1]]);
         if (!is_near(center, bond->horizon))
           open_at(center, *bond);
       }

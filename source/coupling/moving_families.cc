@@ -121,17 +121,14 @@ namespace Perimorph::Coupling
                   found.push_back({{first, second}});
                 else
                   openers.push_back(
-                    {{{first, second}},
-                     load.load_factor,
-                     {{load.normal[0], load.normal[1], load.normal[2]}}});
+                    {{{first, second}}, load.load_factor, load.normal});
               }
           }
         if (damage.strengths && damage.strengths->opens_planes)
           {
-            if (dealii::Utilities::MPI::n_mpi_processes(mesh.communicator()) >
-                1)
-              openers = Base::gather_on_all(mesh.communicator(), openers);
-            planes.open(std::move(openers), nodal.nodes, region.horizon);
+            planes.open(Base::gather_on_all(mesh.communicator(), openers),
+                        nodal.nodes,
+                        region.horizon);
             if (!planes.open_planes().empty())
               add_cut_bonds(found);
           }

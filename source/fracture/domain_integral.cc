@@ -152,7 +152,9 @@ namespace Perimorph::Fracture
       return mean;
     }
 
-    /// True for points that no integral feels.
+    // Of each kind of point: whether no integral feels it, its share of J and
+    // of the interaction integral with a field on its own side of the crack.
+
     template <int dim>
     bool
     is_without_share(const StressPoint<dim> &point)
@@ -161,7 +163,6 @@ namespace Perimorph::Fracture
              (dim == 2 || point.q == 0.);
     }
 
-    /// Share of a point of J.
     template <int dim>
     double
     energy_release(const StressPoint<dim>       &point,
@@ -173,7 +174,6 @@ namespace Perimorph::Fracture
               point.energy_density * (point.q_gradient * direction));
     }
 
-    /// Share of a point of the interaction integral with a field.
     template <int dim>
     double
     interaction(const StressPoint<dim>       &point,
@@ -195,11 +195,26 @@ namespace Perimorph::Fracture
           if (frame.curvature != 0.)
             sum += point.q * flux_divergence(point, direction, frame, other);
         }
-      return changes_sign(field, point.branch) ? -point.volume * sum
-                                               : point.volume * sum;
+      return point.volume * sum;
     }
 
-    /// The same of the divergence of the stress.
+    template <int dim>
+    bool
+    is_without_share(const ForcePoint<dim> &point)
+    {
+      return point.q == 0.;
+    }
+
+    template <int dim>
+    double
+    energy_release(const ForcePoint<dim>        &point,
+                   const dealii::Tensor<1, dim> &direction)
+    {
+      return point.volume * point.q *
+             (point.stress_divergence *
+              (point.displacement_gradient * direction));
+    }
+
     template <int dim>
     double
     interaction(const ForcePoint<dim>        &point,
@@ -208,17 +223,48 @@ namespace Perimorph::Fracture
                 const TipFrame<dim>          &frame,
                 const dealii::Tensor<1, dim> &direction)
     {
-      const double share =
-        point.volume * point.q *
-        (point.stress_divergence *
-         mean_slope(field,
-                    constants,
-                    frame,
-                    point.x,
-                    point.width,
-                    direction,
-                    (point.owner - frame.origin) * frame.axes[1]));
-      return changes_sign(field, point.branch) ? -share : share;
+      return point.volume * point.q *
+             (point.stress_divergence *
+              mean_slope(field,
+                         constants,
+                         frame,
+                         point.x,
+                         point.width,
+                         direction,
+                         (point.owner - frame.origin) * frame.axes[1]));
+    }
+
+    template <int dim>
+    bool
+    is_without_share(const FacePoint<dim> &point)
+    {
+      return point.q == 0.;
+    }
+
+    template <int dim>
+    double
+    energy_release(const FacePoint<dim>         &point,
+                   const dealii::Tensor<1, dim> &direction)
+    {
+      return point.length * point.q * point.energy_density *
+             (point.normal * direction);
+    }
+
+    template <int dim>
+    double
+    interaction(const FacePoint<dim>         &point,
+                const NearTipField            field,
+                const NearTipConstants       &constants,
+                const TipFrame<dim>          &frame,
+                const dealii::Tensor<1, dim> &direction)
+    {
+      const auto other = near_tip_state(field, constants, frame, point.x);
+      return point.length * point.q *
+             (dealii::scalar_product(point.first_piola_kirchhoff,
+                                     other.gradient) *
+                (point.normal * direction) -
+              (other.stress * point.normal) *
+                (point.displacement_gradient * direction));
     }
   } // namespace
 
@@ -236,55 +282,26 @@ namespace Perimorph::Fracture
        NearTipField::sliding,
        dim == 3 ? NearTipField::tearing : NearTipField::point_force}};
     std::array<double, 4> sums = {}; // three interactions, J
-    for (const auto &point : set.points)
-      {
-        if (is_without_share(point))
-          continue;
-        sums[3] += energy_release(point, direction);
-        if (!constants)
-          continue;
-        const auto frame = axes(point.x);
-        for (unsigned int k = 0; k < 3; ++k)
-          sums[k] +=
-            interaction(point, fields[k], *constants, frame, direction);
-      }
-    for (const auto &point : set.force_points)
-      {
-        if (point.q == 0.)
-          continue;
-        sums[3] +=
-          point.volume * point.q *
-          (point.stress_divergence * (point.displacement_gradient * direction));
-        if (!constants)
-          continue;
-        const auto frame = axes(point.x);
-        for (unsigned int k = 0; k < 3; ++k)
-          sums[k] +=
-            interaction(point, fields[k], *constants, frame, direction);
-      }
-    for (const auto &face : set.face_points)
-      {
-        if (face.q == 0.)
-          continue;
-        const double weight  = face.length * face.q;
-        const double forward = face.normal * direction;
-        const auto   u_along = face.displacement_gradient * direction;
-        sums[3] += weight * face.energy_density * forward;
-        if (!constants)
-          continue;
-        const auto frame = axes(face.x);
-        for (unsigned int k = 0; k < 3; ++k)
-          {
-            auto other = near_tip_state(fields[k], *constants, frame, face.x);
-            if (changes_sign(fields[k], face.branch))
-              other.change_sign();
-            sums[k] +=
-              weight * (dealii::scalar_product(face.first_piola_kirchhoff,
-                                               other.gradient) *
-                          forward -
-                        (other.stress * face.normal) * u_along);
-          }
-      }
+    const auto            add  = [&](const auto &points) {
+      for (const auto &point : points)
+        {
+          if (is_without_share(point))
+            continue;
+          sums[3] += energy_release(point, direction);
+          if (!constants)
+            continue;
+          const auto frame = axes(point.x);
+          for (unsigned int k = 0; k < 3; ++k)
+            {
+              const double share =
+                interaction(point, fields[k], *constants, frame, direction);
+              sums[k] += changes_sign(fields[k], point.branch) ? -share : share;
+            }
+        }
+    };
+    add(set.points);
+    add(set.force_points);
+    add(set.face_points);
     std::array<double, 4> all;
     dealii::Utilities::MPI::sum(
       dealii::ArrayView<const double>(sums.data(), sums.size()),

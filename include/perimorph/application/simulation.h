@@ -2,6 +2,7 @@
 
 #include <perimorph/application/motion_integrator.h>
 #include <perimorph/application/post_processing.h>
+#include <perimorph/application/simulation_states.h>
 #include <perimorph/base/timing.h>
 #include <perimorph/bonds/broken_bonds.h>
 #include <perimorph/coupling/moving_bonds.h>
@@ -13,9 +14,6 @@
 #include <perimorph/output/csv_writer.h>
 #include <perimorph/output/field_output.h>
 #include <perimorph/output/results.h>
-#include <perimorph/solvers/dynamic_relaxation.h>
-#include <perimorph/solvers/equilibrium.h>
-#include <perimorph/solvers/motion_state.h>
 
 #include <map>
 #include <memory>
@@ -78,40 +76,9 @@ namespace Perimorph::Application
     }
 
   private:
-    /// One method on the mesh: the run itself, or its finite-element companion.
-    struct Method
-    {
-      Mesh::RegionMap                                region;
-      std::unique_ptr<Coupling::CoupledProblem<dim>> problem;
-      std::unique_ptr<Solvers::Equilibrium<dim>>     equilibrium;
-      Fem::Vector                                    displacement;
-      double                                         time = 0.;
-      Solvers::MotionState motion; ///< of bodies that move
-      /// Where equilibrium is found by relaxation.
-      std::unique_ptr<Solvers::NodalForces<dim>>       forces;
-      std::unique_ptr<Solvers::DynamicRelaxation<dim>> relaxation;
-
-      Method()          = default;
-      Method(Method &&) = default;
-      /// Assigning a distributed vector keeps its old ghosts: swap instead.
-      Method &
-      operator=(Method &&other)
-      {
-        std::swap(region, other.region);
-        std::swap(equilibrium, other.equilibrium);
-        std::swap(problem, other.problem);
-        displacement.swap(other.displacement);
-        time = other.time;
-        std::swap(motion.time, other.motion.time);
-        std::swap(motion.work, other.motion.work);
-        motion.displacement.swap(other.motion.displacement);
-        motion.velocity.swap(other.motion.velocity);
-        motion.acceleration.swap(other.motion.acceleration);
-        std::swap(relaxation, other.relaxation);
-        std::swap(forces, other.forces);
-        return *this;
-      }
-    };
+    using Method  = Application::Method<dim>;
+    using Advance = Application::Advance<dim>;
+    using Instant = Application::Instant<dim>;
 
     void
     read_mesh();
@@ -185,26 +152,6 @@ namespace Perimorph::Application
     /// What the linear algebra and the output did not do.
     void
     report_skipped(const Method &method);
-    /// A load step or arc step that was accepted.
-    struct Step
-    {
-      unsigned int number;
-      double       time;
-      unsigned int n_increments      = 0; ///< more than one after cuts
-      unsigned int newton_iterations = 0;
-      unsigned int linear_iterations = 0;
-      double       relative_residual = 0.;
-      bool         between = false; ///< inside of an event: no checkpoint
-    };
-    /// How far the loads were followed; they are followed from here on.
-    struct Progress
-    {
-      unsigned int       number   = 0;  ///< load steps, arc steps or advances
-      double             fraction = 1.; ///< of the next increment of a step
-      double             peak     = 0.; ///< largest time of the arc length
-      Solvers::ArcLength arc;
-      Step               step{0, 0.}; ///< the last one accepted
-    };
     using OnStep = std::function<void(const Step &)>;
     using OnNewton =
       std::function<void(const Step &, const Solvers::NewtonIteration &)>;
@@ -222,15 +169,6 @@ namespace Perimorph::Application
     follow_arc(Method         &method,
                const OnStep   &on_step,
                const OnNewton &on_newton);
-    /// A state of motion that is kept, and what led to it.
-    struct Instant
-    {
-      unsigned int number;
-      State<dim>   state          = {};
-      double       kinetic_energy = 0., energy_balance = 0.;
-      unsigned int time_steps        = 0;
-      unsigned int newton_iterations = 0, linear_iterations = 0;
-    };
     using OnInstant = std::function<void(const Instant &)>;
     /// Follows the motion of a body to the end time; on_instant gets its states
     /// at the output intervals.
@@ -304,19 +242,6 @@ namespace Perimorph::Application
     /// @throws Base::InputError  loads that are not in proportion to t
     void
     start_events(Method &method, Step &step, const OnNewton &on_newton);
-    /// The next advance of one tip, and what it would release.
-    struct Advance
-    {
-      Bonds::CrackFacet<dim> facet;
-      double                 length; ///< that is new crack in the body
-      /// Potential energy at fixed loads; infinite if it cuts off what nothing
-      /// holds, so that there is no state after it.
-      double released;
-      double switched; ///< change by the growth of the core
-      Method after;    ///< the state behind it, if there is one
-      /// Before it, by the domain integral where that has room.
-      std::optional<double> J;
-    };
     /// Brings both states of an advance to the load at which it releases its
     /// fracture energy.
     /// @throws Base::SolveError  none found (nonlinear problems)
@@ -363,15 +288,6 @@ namespace Perimorph::Application
     /// @return  false if the body falls apart
     bool
     break_overloaded_bonds(Method &method, Step &step, const OnStep &on_step);
-    /// A bond and the factor of the loads at which it breaks.
-    struct BondLoad
-    {
-      std::array<unsigned int, 2> nodes;
-      double                      factor;
-      double                      energy;
-      bool                        in_core; ///< may break
-      dealii::Tensor<1, 3>        normal;  ///< of StrengthLoad
-    };
     std::vector<BondLoad>
     bond_loads(const Method &method) const;
     /// The bonds with the lowest loads of all, within a tolerance, and those
@@ -388,6 +304,15 @@ namespace Perimorph::Application
     /// @param limit  largest factor of the loads
     std::vector<BondLoad>
     next_to_break(Method &method, double limit);
+    /// Takes a tooth of a bond in the present event and writes it down in
+    /// broken_bonds.csv.
+    /// @param time    or load factor
+    /// @param energy  of the bond; none in motion
+    void
+    break_bond(const std::array<unsigned int, 2> &nodes,
+               const Output::CsvCell             &step,
+               double                             time,
+               const std::optional<double>       &energy);
     /// Breaks bonds at fixed loads and accounts for the energies.
     /// @return  false if the body falls apart
     bool
@@ -554,7 +479,7 @@ namespace Perimorph::Application
     double              stable_time_step = 0.; ///< 0: not known
     double              announced_limit = 0., limit_at_start = 0.;
     /// Whether bonds broke since the limit was found, and how long ago.
-    bool         limit_is_old    = false;
+    bool         limit_is_old   = false;
     unsigned int steps_of_limit  = 0;
     double       energy_at_start = 0., largest_energy = 0., energy_drift = 0.;
     std::size_t  n_time_steps = 0;

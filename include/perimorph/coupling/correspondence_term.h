@@ -78,6 +78,13 @@ namespace Perimorph::Coupling
                            const double *vector,
                            double       *eta) const;
 
+    /// Calls action(particle, eta) for all particles. Relative displacements
+    /// are found one family ahead: lanes that are read wait until what was
+    /// written to them one by one is in the cache.
+    template <typename Action>
+    void
+    for_families(const Vector &vector, const Action &action) const;
+
     /// @param forces  per unit weight, as the family has them; are changed
     void
     scatter(unsigned int         particle,

@@ -14,7 +14,7 @@ namespace Perimorph::Coupling
     std::array<unsigned int, 2> nodes; ///< global
     double                      load_factor;
     /// Of the plane that opens, a unit vector; zero: the bond breaks alone.
-    std::array<double, 3> normal;
+    dealii::Tensor<1, 3> normal;
   };
 
   /// A crack of one horizon that opens at once: a disc (2D: a line).
@@ -69,7 +69,7 @@ namespace Perimorph::Coupling
     /// @param bonds    of all ranks, in any order; those with a normal count
     /// @param horizon  of nodes
     void
-    open(std::vector<OverloadedBond>            bonds,
+    open(const std::vector<OverloadedBond>     &bonds,
          const std::vector<dealii::Point<dim>> &nodes,
          const std::vector<double>             &horizon);
 

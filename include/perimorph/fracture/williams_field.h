@@ -20,14 +20,6 @@ namespace Perimorph::Fracture
     dealii::Tensor<1, dim> displacement;
     dealii::Tensor<2, dim> gradient;
     dealii::Tensor<2, dim> stress;
-
-    void
-    change_sign()
-    {
-      displacement *= -1.;
-      gradient *= -1.;
-      stress *= -1.;
-    }
   };
 
   /// A near-tip field of linear elasticity in global components. Not finite at

@@ -20,10 +20,11 @@ namespace Perimorph::Coupling
       }
 
       static OverloadedBond
-      bond(const std::array<unsigned int, 2> &first,
-           const std::array<unsigned int, 2> &second,
-           const double                       load_factor,
-           const std::array<double, 3>       &normal = {{0., 1., 0.}})
+      bond(
+        const std::array<unsigned int, 2> &first,
+        const std::array<unsigned int, 2> &second,
+        const double                       load_factor,
+        const dealii::Tensor<1, 3> &normal = dealii::Tensor<1, 3>({0., 1., 0.}))
       {
         return {{{11 * first[1] + first[0], 11 * second[1] + second[0]}},
                 load_factor,
@@ -104,7 +105,10 @@ namespace Perimorph::Coupling
       Lattice::bond({{2, 5}}, {{3, 7}}, 0.7),  // waits
       Lattice::bond({{5, 7}}, {{5, 8}}, 0.75), // waits
       Lattice::bond({{5, 0}}, {{5, 1}}, 0.8),
-      Lattice::bond({{8, 2}}, {{8, 3}}, 0.9, {{0., 0., 0.}})}; // breaks alone
+      Lattice::bond({{8, 2}},
+                    {{8, 3}},
+                    0.9,
+                    dealii::Tensor<1, 3>())}; // breaks alone
     FailurePlanes<2> planes;
     planes.open(bonds, lattice.nodes, lattice.horizon);
     const auto center = [&](const unsigned int k) {
