@@ -33,7 +33,8 @@ namespace Perimorph::Application
                       "Part of the stability limit 2 / omega that explicit "
                       "steps use; omega, the highest frequency, is computed "
                       "from the stiffness at the start and again when bonds "
-                      "break or the peridynamic region changes.",
+                      "break, the peridynamic region changes or, at finite "
+                      "strain, the body deforms.",
                       Double(0.01, 1.));
     prm.add_parameter("spectral radius",
                       spectral_radius,

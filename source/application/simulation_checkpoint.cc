@@ -187,8 +187,11 @@ namespace Perimorph::Application
     action("limit at start", limit_at_start);
     action("limit is old", limit_is_old);
     action("steps of limit", steps_of_limit);
+    action("interval of limit", limit_interval);
     action("energy at start", energy_at_start);
     action("largest energy", largest_energy);
+    action("largest imbalance", largest_imbalance);
+    action("latest balance", latest_balance);
     action("energy drift", energy_drift);
     action("time steps", n_time_steps);
   }

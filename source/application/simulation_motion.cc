@@ -22,9 +22,19 @@ namespace Perimorph::Application
 
     constexpr double implicit_over_explicit = 10.;
 
-    /// Energy from nothing over the largest energy: beyond, a motion is no
-    /// solution, and beyond the smaller one that needs a word.
-    constexpr double unbounded_drift = 0.5, large_drift = 0.05;
+    /// How often the limit of stable steps is looked at: linear_interval where
+    /// bonds break; at finite strain as often as it changes by wanted_change,
+    /// far less than a safety factor leaves.
+    constexpr unsigned int linear_interval = 100, shortest_interval = 5,
+                           longest_interval = 1000;
+    constexpr double wanted_change          = 0.01;
+
+    /// Energy from nothing over the largest energy, at one output or two in a
+    /// row (few steps at a sudden start may miss half of a little work):
+    /// beyond, a motion is no solution. Beyond the smallest one that needs a
+    /// word.
+    constexpr double unbounded_drift = 0.9, lasting_drift = 0.5,
+                     large_drift = 0.05;
   } // namespace
 
   template <int dim>
@@ -181,8 +191,11 @@ namespace Perimorph::Application
         const auto   timer   = timing.scope("time_step_limit");
         const double earlier = announced_limit;
         stable_time_step     = integrator.stable_time_step(method.motion);
+        // A body in pieces that nothing holds together has no limit.
+        if (earlier > 0. && !std::isfinite(stable_time_step))
+          stable_time_step = earlier;
         if (is_explicit &&
-            std::abs(stable_time_step - earlier) > 0.01 * earlier)
+            std::abs(stable_time_step - earlier) > 0.05 * earlier)
           {
             log << "Stability limit of explicit steps at t = "
                 << method.motion.time << ": " << stable_time_step << std::endl;
@@ -199,6 +212,28 @@ namespace Perimorph::Application
     return time.time_step > 0. ? time.time_step
                                : time.safety_factor * stable_time_step *
                                    (is_explicit ? 1. : implicit_over_explicit);
+  }
+
+  template <int dim>
+  double
+  Simulation<dim>::renewed_time_step(const MotionIntegrator<dim> &integrator,
+                                     const Method                &method)
+  {
+    const double earlier = stable_time_step;
+    stable_time_step     = 0.;
+    const double longest = longest_time_step(integrator, method);
+    limit_is_old         = false;
+    steps_of_limit       = 0;
+    if (method.equilibrium->is_linear())
+      return longest;
+    // A limit that turns stands still for a while.
+    const double change =
+      std::max(std::abs(stable_time_step / earlier - 1.), wanted_change / 1.5);
+    limit_interval = std::clamp(
+      static_cast<unsigned int>(limit_interval * wanted_change / change),
+      shortest_interval,
+      longest_interval);
+    return longest;
   }
 
   template <int dim>
@@ -250,12 +285,17 @@ namespace Perimorph::Application
     if (instant.number == 0)
       energy_at_start = energy;
     largest_energy = std::max({largest_energy, energy, std::abs(motion.work)});
+    const double gain = energy + dissipated_energy - switched_energy -
+                        energy_at_start - motion.work;
+    largest_imbalance = std::max(largest_imbalance, std::abs(gain));
     if (largest_energy > 0.)
-      instant.energy_balance = (energy + dissipated_energy - switched_energy -
-                                energy_at_start - motion.work) /
-                               largest_energy;
-    energy_drift = std::max(energy_drift, std::abs(instant.energy_balance));
-    if (instant.energy_balance > unbounded_drift)
+      {
+        instant.energy_balance = gain / largest_energy;
+        energy_drift           = largest_imbalance / largest_energy;
+      }
+    const double lasts = std::min(instant.energy_balance, latest_balance);
+    latest_balance     = instant.energy_balance;
+    if (latest_balance > unbounded_drift || lasts > lasting_drift)
       {
         std::ostringstream text;
         text << "the motion gains energy from nothing: at t = " << motion.time
@@ -270,11 +310,9 @@ namespace Perimorph::Application
   void
   Simulation<dim>::follow_motion(Method &method, const OnInstant &on_instant)
   {
-    // Broken bonds may shorten stable steps: how often that is looked at.
-    constexpr unsigned int limit_interval = 100;
-
     const bool is_explicit =
       parameters.time_integration.scheme == TimeScheme::explicit_motion;
+    const bool is_linear  = method.equilibrium->is_linear();
     const auto times      = parameters.times();
     auto      &motion     = method.motion;
     node_mass             = Fem::lumped_mass(mesh->nodal(), materials.density);
@@ -284,6 +322,7 @@ namespace Perimorph::Application
       {
         motion           = initial_motion(method);
         stable_time_step = 0.;
+        limit_interval   = is_linear ? linear_interval : shortest_interval;
       }
     double longest = longest_time_step(*integrator, method);
     if (is_fresh)
@@ -329,15 +368,11 @@ namespace Perimorph::Application
                       integrator->forget_tangent();
                     if (change != MotionChange::none)
                       limit_is_old = true;
-                    if (++steps_of_limit >= limit_interval && is_explicit &&
-                        limit_is_old)
-                      {
-                        stable_time_step = 0.;
-                        longest        = longest_time_step(*integrator, method);
-                        limit_is_old   = false;
-                        steps_of_limit = 0;
-                      }
                   }
+                ++steps_of_limit;
+                if (is_explicit && (limit_is_old || !is_linear) &&
+                    steps_of_limit >= limit_interval)
+                  longest = renewed_time_step(*integrator, method);
               }
             on_instant(make_instant(instant, *integrator, method));
           }

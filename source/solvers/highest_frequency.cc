@@ -70,11 +70,19 @@ namespace Perimorph::Solvers
       if (!values.empty())
         largest = std::max(largest, values.back());
     });
-    lanczos.solve(
-      ScaledStiffness<dim>{forces, scale, displacement, std::move(scaled)},
-      solution,
-      start,
-      dealii::PreconditionIdentity());
+    try
+      {
+        lanczos.solve(
+          ScaledStiffness<dim>{forces, scale, displacement, std::move(scaled)},
+          solution,
+          start,
+          dealii::PreconditionIdentity());
+      }
+    catch (const dealii::SolverControl::NoConvergence &)
+      {
+        // No stiffness is left, or none along a direction: what was found
+        // until then is all there is.
+      }
     if (!(largest > 0.))
       return 0.;
     const double frequency = std::sqrt(largest);

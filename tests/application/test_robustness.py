@@ -3,6 +3,7 @@
 import csv
 import os
 
+from case_files import parameter_text
 from harness import Failures, Runner, finish, parse_arguments
 
 TWO_SQUARES = """SetFactory("OpenCASCADE");
@@ -252,12 +253,62 @@ def advice(runner, failures):
         failures.end(outcome)
 
 
+MOVING = {"Material/density": "1", "Boundary conditions/symmetry": None,
+          "Boundary conditions/traction": None}
+PRESSED = dict(MOVING, **{
+    "Material/law": "hencky", "Material/state": "plane strain",
+    "Boundary conditions/displacement": "bottom: x = 0, y = 0"})
+
+
+def energies_of_motion(runner, failures):
+    """Energy that comes from nothing, little and much, and steps that are too
+    long for what a body has become."""
+    for name, changes, code, expected in (
+        # The limit is known to a tenth of a percent.
+        ("no margin", dict(MOVING, **{
+            "Material/state": "plane strain",
+            "Mesh/geometry parameters": "n = 16",
+            "Time integration/scheme": "explicit",
+            "Time integration/safety factor": "1",
+            "Time integration/initial velocity": "y = sin(9*x)*sin(11*y)",
+            "Load steps/end time": "30", "Load steps/number of steps": "4",
+        }), 3, "the motion gains energy from nothing: at t = 7.5"),
+        ("long steps", dict(PRESSED, **{
+            "Time integration/scheme": "implicit",
+            "Time integration/spectral radius": "1",
+            "Time integration/time step": "0.01",
+            "Time integration/initial velocity": "y = -20*y",
+            "Load steps/number of steps": "50",
+        }), 0, "Warning: the energy drifts by "),
+        ("a limit that falls", dict(PRESSED, **{
+            "Time integration/scheme": "explicit",
+            "Time integration/time step": "0.0018",
+            "Boundary conditions/displacement":
+            "bottom: x = 0, y = 0; top: x = 0, y = -0.5*t^2",
+            "Load steps/number of steps": "20",
+        }), 3, "the limit of stable time steps is "),
+    ):
+        failures.begin("motion: " + name)
+        folder = runner.new_folder()
+        write(folder, "case.prm", parameter_text(changes))
+        outcome = runner.run(["case.prm", "--output", "out"], 1, folder)
+        failures.check(outcome.code == code, "exit %d" % outcome.code)
+        failures.check(expected in outcome.text,
+                       "no message with '%s'" % expected)
+        # The last state is there and can be gone on from.
+        failures.check(os.path.exists(outcome.path("checkpoint")),
+                       "no checkpoint")
+        failures.check_clean(outcome.text)
+        failures.end(outcome)
+
+
 def main():
     arguments = parse_arguments(__doc__)
     failures = Failures()
     runner = Runner(arguments)
     for case in (tiny_strains, two_materials, gap, unloading,
-                 unwritable_files, far_from_the_origin, advice):
+                 unwritable_files, far_from_the_origin, advice,
+                 energies_of_motion):
         case(runner, failures)
     finish(failures)
 

@@ -38,6 +38,17 @@ ALL_AT_ONCE = {
 }
 AT_ONCE = .01 / (2. / 3. * 1.3 * .02)
 
+# Every node flies away from its neighbours.
+THROWN = {
+    "Boundary conditions/symmetry": None,
+    "Boundary conditions/traction": None,
+    "Material/density": "1",
+    "Time integration/scheme": "explicit",
+    "Time integration/initial velocity": "x = 80*(x - 0.5), y = 80*(y - 0.5)",
+    "Load steps/end time": "1",
+    "Load steps/number of steps": "8",
+}
+
 # Load factor of the first bond. Strains at t = 1: 0.02, -0.006, -0.006.
 CRITERIA = [
     ("stretch", STRETCH, .5),
@@ -187,11 +198,40 @@ def ends_of_bodies(runner, failures):
         failures.end(outcome)
 
 
+def thrown_apart(runner, failures):
+    """Pieces without any stiffness fly on."""
+    for ranks, name, changes in (
+        (1, "families", {}),
+        (2, "families, 2 ranks", {}),
+        (1, "bonds", {"Peridynamics/model": "bond based",
+                      "Material/Poisson's ratio": "0.3333333333333333"}),
+        (1, "core that grows", {
+            "Mode": "coupled", "Peridynamics/around": "point 0.5 0.5",
+            "Peridynamics/core size": "0.1",
+            "Peridynamics/blending width": "0.15"}),
+    ):
+        failures.begin("thrown apart, " + name)
+        outcome = solve(runner, STRETCH, changes, THROWN, ranks=ranks)
+        if failures.check(outcome.code == 0, "exit %d" % outcome.code):
+            steps = rows(outcome, "time_steps.csv")
+            for row in steps + rows(outcome, "quantities.csv"):
+                failures.check(all(map(math.isfinite, row.values())), str(row))
+            failures.check_below("strain energy left",
+                                 steps[-1]["strain_energy"], 1e-12)
+            failures.check_close("kinetic energy of pieces",
+                                 steps[-1]["kinetic_energy"],
+                                 steps[-2]["kinetic_energy"], 1e-12)
+            failures.check_below("energy gained",
+                                 steps[-1]["energy_balance"], .01)
+        failures.check_clean(outcome.text)
+        failures.end(outcome)
+
+
 def main():
     arguments = parse_arguments(__doc__)
     failures = Failures()
     runner = Runner(arguments)
-    for case in (criteria, protection, ends_of_bodies):
+    for case in (criteria, protection, ends_of_bodies, thrown_apart):
         case(runner, failures)
     finish(failures)
 
