@@ -118,6 +118,13 @@ namespace Perimorph::Fracture
                         tip,
                         largest_radius(result.annuli),
                         set);
+        if (constants && around.horizon > 0. &&
+            !cracked.body.acceleration.empty())
+          smooth_towards_tip(tip.frame,
+                             *constants,
+                             around.horizon + around.spacing,
+                             communicator,
+                             set);
         result.n_without_stress =
           dealii::Utilities::MPI::sum(set.n_without_stress, communicator);
         for (const auto &annulus : result.annuli)

@@ -2,6 +2,10 @@
 #include <perimorph/fracture/force_points.h>
 #include <perimorph/mesh/cell_geometry.h>
 
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/vector.h>
+
 #include <cmath>
 
 namespace Perimorph::Fracture
@@ -111,6 +115,76 @@ namespace Perimorph::Fracture
           else
             add_interpolated(body, c, set.force_points);
         }
+  }
+
+  void
+  smooth_towards_tip(const TipFrame<2>      &tip,
+                     const NearTipConstants &constants,
+                     const double            reach,
+                     const MPI_Comm          communicator,
+                     StressPointSet<2>      &set)
+  {
+    constexpr unsigned int n            = 4;
+    const auto             displacement = [&](const NearTipField      field,
+                                  const dealii::Point<2> &place) {
+      return near_tip_state(field, constants, tip, place).displacement;
+    };
+    // All fields of about one size
+    const double size =
+      displacement(NearTipField::opening, tip.origin + reach * tip.axes[1])
+        .norm();
+    const auto fields_at = [&](const ForcePoint<2> &point) {
+      const double factor = point.branch / size;
+      return std::array<dealii::Tensor<1, 2>, n>{
+        {tip.axes[0],
+         tip.axes[1],
+         factor * displacement(NearTipField::opening, point.owner),
+         factor * displacement(NearTipField::sliding, point.owner)}};
+    };
+
+    std::array<double, n *(n + 1)> sums = {}, all;
+    for (const auto &point : set.force_points)
+      {
+        const double distance = point.owner.distance(tip.origin);
+        if (distance < reach || distance >= 2. * reach)
+          continue;
+        const auto fields = fields_at(point);
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            for (unsigned int j = 0; j < n; ++j)
+              sums[n * i + j] += point.volume * fields[i] * fields[j];
+            sums[n * n + i] +=
+              point.volume * fields[i] * point.stress_divergence;
+          }
+      }
+    dealii::Utilities::MPI::sum(
+      dealii::ArrayView<const double>(sums.data(), sums.size()),
+      communicator,
+      dealii::ArrayView<double>(all.data(), all.size()));
+    dealii::LAPACKFullMatrix<double> matrix(n, n);
+    dealii::Vector<double>           side(n), factors(n);
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        for (unsigned int j = 0; j < n; ++j)
+          matrix(i, j) = all[n * i + j];
+        side[i] = all[n * n + i];
+      }
+    // Few points may leave some of the factors open: those are zero.
+    matrix.compute_inverse_svd(1e-8);
+    matrix.vmult(factors, side);
+
+    for (auto &point : set.force_points)
+      {
+        const double share =
+          1. - point.owner.distance(tip.origin) / (2. * reach);
+        if (share <= 0.)
+          continue;
+        const auto           fields = fields_at(point);
+        dealii::Tensor<1, 2> smooth;
+        for (unsigned int i = 0; i < n; ++i)
+          smooth += factors[i] * fields[i];
+        point.stress_divergence += share * (smooth - point.stress_divergence);
+      }
   }
 
 #define INSTANTIATE(dim)                                            \

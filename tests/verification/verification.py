@@ -52,6 +52,15 @@ def read_table(path):
     }
 
 
+def root_mean_square(values):
+    return math.sqrt(sum(value * value for value in values) / len(values))
+
+
+def relative_error(values, reference):
+    """Relative L2 error over the rows of a table."""
+    return (root_mean_square([a - b for a, b in zip(values, reference)]) /
+            root_mean_square(reference))
+
 def number_or_text(cell):
     try:
         return float(cell)

@@ -245,4 +245,72 @@ namespace
         EXPECT_NEAR(found.T_stress, expected.T_stress, 1.4e-2);
       }
   }
+
+  // What a tip carries along stays: translation and opening of its faces.
+  TEST(DynamicIntegral, smoothing_keeps_the_motion_of_a_tip)
+  {
+    NearTipCase fibres;
+    fibres.stiffness = Testing::graphite_epoxy(0.9);
+    for (const auto &body : {NearTipCase(), fibres})
+      {
+        AcceleratedPlate plate(40, 0.52, 0.2, body);
+        auto             set = plate.points(Source::families);
+        plate.field.T        = 0.;
+        for (auto &point : set.force_points)
+          point.stress_divergence = plate.field.at(point.owner).displacement +
+                                    dealii::Tensor<1, 2>({1., -2.});
+        const auto before = set.force_points;
+        smooth_towards_tip(plate.field.frame(),
+                           plate.field.constants(),
+                           3. * plate.h,
+                           MPI_COMM_SELF,
+                           set);
+        for (std::size_t k = 0; k < before.size(); ++k)
+          EXPECT_LT((set.force_points[k].stress_divergence -
+                     before[k].stress_divergence)
+                      .norm(),
+                    1e-9);
+      }
+  }
+
+  // Two nodes at the tip swing against each other, wherever between the nodes
+  // of the lattice the tip is.
+  TEST(DynamicIntegral, smoothing_takes_out_a_swing_of_the_tip)
+  {
+    double largest_before = 0., largest_after = 0.;
+    for (const double x : {-0.4, -0.2, -0.01, 0.01, 0.2, 0.4})
+      for (const double y : {-0.45, -0.25, -0.05, 0.05, 0.25, 0.45})
+        {
+          AcceleratedPlate plate(40, 0., 0.);
+          plate.field.tip = dealii::Point<2>(x * plate.h, y * plate.h);
+          plate.cracks    = plate.field.crack();
+          for (unsigned int n = 0; n < plate.mesh.n_nodes(); ++n)
+            {
+              const auto &place       = plate.mesh.nodes[n];
+              plate.acceleration[n]   = dealii::Tensor<1, 2>();
+              plate.displacement[n]   = plate.field.at(place).displacement;
+              const double other_side = y > 0. ? plate.h : -plate.h;
+              if (place.norm() < 0.1 * plate.h)
+                plate.acceleration[n][1] = 1.;
+              if (place.distance({0., other_side}) < 0.1 * plate.h)
+                plate.acceleration[n][1] = -1.;
+            }
+          auto       set    = plate.points(Source::families);
+          const auto before = plate.quantities(set, annuli[0]);
+          plate.acceleration.clear();
+          const auto still =
+            plate.quantities(plate.points(Source::families), annuli[0]);
+          smooth_towards_tip(plate.field.frame(),
+                             plate.field.constants(),
+                             3. * plate.h,
+                             MPI_COMM_SELF,
+                             set);
+          const auto after = plate.quantities(set, annuli[0]);
+          largest_before =
+            std::max(largest_before, std::abs(before.K_I - still.K_I));
+          largest_after =
+            std::max(largest_after, std::abs(after.K_I - still.K_I));
+        }
+    EXPECT_LT(largest_after, 0.2 * largest_before);
+  }
 } // namespace
