@@ -30,11 +30,12 @@ namespace Perimorph::Application
   template <int dim>
   void
   MotionIntegrator<dim>::start(Solvers::MotionState &motion,
-                               const bool            is_fresh)
+                               const bool            is_fresh,
+                               const double          time_step)
   {
     const bool is_explicit = parameters.scheme == TimeScheme::explicit_motion;
     if (is_fresh)
-      by_nodes.start(motion);
+      by_nodes.start(motion, time_step);
     else
       forces.evaluate(motion.time, motion.displacement);
     // From here on the problem has inertia, which steps by nodes must not see.

@@ -327,7 +327,7 @@ namespace Perimorph::Application
     double longest = longest_time_step(*integrator, method);
     if (is_fresh)
       limit_at_start = stable_time_step;
-    integrator->start(motion, is_fresh);
+    integrator->start(motion, is_fresh, longest);
     if (is_fresh)
       on_instant(make_instant({0}, *integrator, method));
 
@@ -362,7 +362,7 @@ namespace Perimorph::Application
                     if (change == MotionChange::region)
                       {
                         integrator = make_integrator(method);
-                        integrator->start(motion, false);
+                        integrator->start(motion, false, longest);
                       }
                     else if (change == MotionChange::bonds)
                       integrator->forget_tangent();

@@ -77,10 +77,13 @@ namespace Perimorph::Fracture
   {
     if (values.size() < 2)
       return std::numeric_limits<double>::quiet_NaN();
-    double largest = 0.;
+    double largest = 0., size = 0.;
     for (const auto &value : values)
-      largest = std::max(largest, std::abs(value.J - values[0].J));
-    return largest > 0. ? largest / std::abs(values[0].J) : 0.;
+      {
+        largest = std::max(largest, std::abs(value.J - values[0].J));
+        size    = std::max(size, std::abs(value.J));
+      }
+    return largest > 0. ? largest / size : 0.;
   }
 
   std::vector<TipQuantities>

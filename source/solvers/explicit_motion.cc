@@ -37,13 +37,11 @@ namespace Perimorph::Solvers
 
   template <int dim>
   void
-  ExplicitMotion<dim>::start(MotionState &state)
+  ExplicitMotion<dim>::start(MotionState &state, const double time_step)
   {
     forces.impose_supports(state.time, state.displacement);
     forces.impose_hanging(state.displacement);
-    if (!forces.supports_move())
-      for (const unsigned int entry : forces.held())
-        state.velocity.local_element(entry) = 0.;
+    forces.impose_support_velocities(state.time, time_step, state.velocity);
     forces.impose_hanging(state.velocity);
     accelerate(state);
   }

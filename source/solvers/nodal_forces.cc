@@ -46,6 +46,20 @@ namespace Perimorph::Solvers
 
   template <int dim>
   void
+  NodalForces<dim>::impose_support_velocities(const double time,
+                                              const double time_step,
+                                              Vector      &velocity) const
+  {
+    for (std::size_t k = 0; k < held_entries.size(); ++k)
+      velocity.local_element(held_entries[k]) =
+        moving_supports ? (supports.value(held_unknowns[k], time + time_step) -
+                           supports.value(held_unknowns[k], time)) /
+                            time_step
+                        : 0.;
+  }
+
+  template <int dim>
+  void
   NodalForces<dim>::impose_hanging(Vector &field) const
   {
     constraints.set_hanging(field);

@@ -95,7 +95,7 @@ class Runner:
         with concurrent.futures.ThreadPoolExecutor(n_together) as pool:
             yield from pool.map(function, items)
 
-    def run(self, words, ranks=1, folder=None, output="out", timeout=240):
+    def run(self, words, ranks=1, folder=None, output="out", timeout=1200):
         """Runs with these arguments; folder is where we start, and the
         results are expected in folder/output."""
         folder = folder or self.new_folder()

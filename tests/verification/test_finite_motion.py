@@ -83,10 +83,43 @@ def one_turn(study):
                         .2 if scheme == "implicit" else .001)
 
 
+def driven_at_once(study):
+    """A strip at rest whose upper end moves with a constant velocity: rho c v on
+    it until the wave comes back from the free end."""
+    velocity, modulus = .01, 1000. * .7 / (1.3 * .4)
+    speed = math.sqrt(modulus)
+    driven = {
+        "Material/law": "linear elastic",
+        "Mesh/geometry parameters": "n = 16",
+        "Boundary conditions/symmetry": "left, right",
+        "Boundary conditions/displacement": "top: y = %g*t" % velocity,
+        "Quantities/reaction": "top",
+        "Load steps/end time": "%.12g" % (1.9 / speed),
+        "Load steps/number of steps": "95",
+    }
+    if not study.part("end that moves at once", "force", "rho c v"):
+        return
+    for mode in MODES:
+        for scheme in SCHEMES:
+            moved = solve(study, driven, {
+                "Mode": mode, "Time integration/scheme": scheme})
+            table = moved.table("quantities")
+            forces = [force for time, force in zip(
+                table.get("time", []), table.get("reaction_top_y", []))
+                      if .2 <= time * speed <= 1.8] or [math.nan]
+            label = "%s, %s: " % (mode, scheme)
+            study.within_percent(label + "mean force",
+                                 sum(forces) / len(forces), speed * velocity,
+                                 1.)
+            study.below(label + "energy drift", 100. * moved["energy_drift"],
+                        .1)
+
+
 def main():
     study = Study(__doc__)
     pressed_and_stretched(study)
     one_turn(study)
+    driven_at_once(study)
     study.finish()
 
 

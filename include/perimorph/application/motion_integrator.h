@@ -25,9 +25,10 @@ namespace Perimorph::Application
                      Base::Timing                          &timing);
 
     /// Before the first step.
-    /// @param is_fresh  the acceleration is not known yet
+    /// @param is_fresh   the acceleration is not known yet
+    /// @param time_step  the first one, roughly
     void
-    start(Solvers::MotionState &motion, bool is_fresh);
+    start(Solvers::MotionState &motion, bool is_fresh, double time_step);
 
     /// Largest stable time step of explicit motion; before start() only, if
     /// the motion is implicit.

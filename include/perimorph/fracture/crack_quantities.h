@@ -40,8 +40,8 @@ namespace Perimorph::Fracture
     /// StressPointSet::n_without_stress of all ranks; 0 when all is well.
     unsigned int n_without_stress = 0;
 
-    /// Largest change of J over the annuli relative to the first; not a number
-    /// with fewer than two.
+    /// Largest difference of J from that of the first annulus over the largest
+    /// J; not a number with fewer than two.
     double
     domain_dependence() const;
   };

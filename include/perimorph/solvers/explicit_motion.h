@@ -16,9 +16,11 @@ namespace Perimorph::Solvers
     ExplicitMotion(NodalForces<dim> &forces, const std::vector<double> &mass);
 
     /// Acceleration of a state whose displacement and velocity were set;
-    /// supports are imposed.
+    /// supports are imposed, those that move with their velocity, so that one
+    /// that moves at once is no blow.
+    /// @param time_step  the first one, roughly
     void
-    start(MotionState &state);
+    start(MotionState &state, double time_step);
 
     /// One step forward.
     /// @throws Base::InadmissibleState  on all ranks

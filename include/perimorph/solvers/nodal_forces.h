@@ -49,6 +49,12 @@ namespace Perimorph::Solvers
     void
     impose_supports(double time, Vector &displacement) const;
 
+    /// Gives held unknowns the mean velocity of their values over a step.
+    void
+    impose_support_velocities(double  time,
+                              double  time_step,
+                              Vector &velocity) const;
+
     /// Gives hanging nodes the mean of their parents.
     void
     impose_hanging(Vector &field) const;

@@ -123,7 +123,7 @@ namespace Perimorph::Solvers
       Body              body("0");
       auto              state = body.pushed();
       ExplicitMotion<2> by_nodes(body.forces, body.mass);
-      by_nodes.start(state);
+      by_nodes.start(state, 1e-3);
       std::unique_ptr<ImplicitMotion<2>> implicit;
       if (by_newton)
         implicit = std::make_unique<ImplicitMotion<2>>(body.problem,
@@ -171,7 +171,7 @@ namespace Perimorph::Solvers
         Body              body("0");
         ExplicitMotion<2> motion(body.forces, body.mass);
         auto              state = body.pushed();
-        motion.start(state);
+        motion.start(state, 1e-3);
         const double limit = motion.stable_time_step(state);
         const double start = body.energy(state);
         for (unsigned int step = 0; step < 1500; ++step)
@@ -211,7 +211,7 @@ namespace Perimorph::Solvers
         Body              body("0.1*sin(4*t)");
         ExplicitMotion<2> by_nodes(body.forces, body.mass);
         auto              state = body.at_rest();
-        by_nodes.start(state);
+        by_nodes.start(state, 1e-3);
         ImplicitMotion<2> implicit(body.problem,
                                    body.equilibrium,
                                    body.forces,
@@ -223,7 +223,7 @@ namespace Perimorph::Solvers
             Body              alone("0.1*sin(4*t)");
             ExplicitMotion<2> motion(alone.forces, alone.mass);
             state = alone.at_rest();
-            motion.start(state);
+            motion.start(state, 1e-3);
             for (unsigned int step = 0; step < 200; ++step)
               motion.step(0.01, state);
             EXPECT_NEAR(state.work / alone.energy(state), 1., 1e-3);
