@@ -155,6 +155,16 @@ CASES = [
         "Time integration/scheme": "explicit",
         "Time integration/field interval": "1.6",
     }), (3, 15)),
+    ("explicit motion at finite strain", dict(HENCKY, **{
+        "Material/density": "1",
+        "Boundary conditions/symmetry": None,
+        "Boundary conditions/traction": None,
+        "Boundary conditions/displacement":
+        "bottom: x = 0, y = 0; top: x = 0, y = -0.4*t",
+        "Time integration/scheme": "explicit",
+        "Time integration/field interval": "0.15",
+        "Load steps/number of steps": "20",
+    }), (2, 16)),
     ("implicit motion with families that break", dict(PULLED, **{
         "Time integration/scheme": "implicit",
         "Time integration/time step": "0.05",
