@@ -187,7 +187,7 @@ namespace Perimorph::Application
     action("limit at start", limit_at_start);
     action("limit is old", limit_is_old);
     action("steps of limit", steps_of_limit);
-    action("interval of limit", limit_interval);
+    action("change allowed by limit", allowed_change);
     action("energy at start", energy_at_start);
     action("largest energy", largest_energy);
     action("largest imbalance", largest_imbalance);
@@ -232,6 +232,9 @@ namespace Perimorph::Application
           arrays["velocity"]        = in_file_order(*mesh, state.velocity);
           arrays["acceleration"]    = in_file_order(*mesh, state.acceleration);
           numbers["work of motion"] = method.motion.work;
+          if (!displacement_of_limit.empty())
+            arrays["displacement of limit"] =
+              in_file_order(*mesh, displacement_of_limit);
         }
       if (!direction.empty())
         arrays["arc direction"] = in_file_order(*mesh, direction);
@@ -387,6 +390,9 @@ namespace Perimorph::Application
         auto &motion = method.motion;
         motion.time  = method.time;
         motion.work  = numbers.at("work of motion");
+        if (const auto found = arrays.find("displacement of limit");
+            found != arrays.end())
+          displacement_of_limit = vectors_from_file_order(*mesh, found->second);
         for (const auto &[name, vector] :
              {std::make_pair("displacement", &motion.displacement),
               std::make_pair("velocity", &motion.velocity),

@@ -22,12 +22,37 @@ namespace Perimorph::Application
 
     constexpr double implicit_over_explicit = 10.;
 
-    /// How often the limit of stable steps is looked at: linear_interval where
-    /// bonds break; at finite strain as often as it changes by wanted_change,
-    /// far less than a safety factor leaves.
-    constexpr unsigned int linear_interval = 100, shortest_interval = 5,
-                           longest_interval = 1000;
-    constexpr double wanted_change          = 0.01;
+    /// Steps after which the limit of stable steps is looked at: where bonds
+    /// break, and at finite strain, where it is found again if gradients of the
+    /// displacement have changed by as much as changes it by wanted_change, far
+    /// less than a safety factor leaves.
+    constexpr unsigned int linear_interval = 100, finite_interval = 5;
+    constexpr double       wanted_change = 0.01, least_gradient_change = 0.005,
+                     largest_gradient_change = 0.03;
+
+    /// Largest difference of two fields' difference between nodes of a cell
+    /// over their distance, of all ranks.
+    template <int dim>
+    double
+    gradient_change(const Mesh::NodalMesh<dim>                &mesh,
+                    const std::vector<dealii::Tensor<1, dim>> &before,
+                    const std::vector<dealii::Tensor<1, dim>> &now,
+                    const MPI_Comm                             communicator)
+    {
+      double largest = 0.;
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        if (mesh.owns_cell(c))
+          {
+            const auto &nodes = mesh.cells[c];
+            const auto  first = now[nodes[0]] - before[nodes[0]];
+            for (unsigned int v = 1; v < nodes.size(); ++v)
+              largest =
+                std::max(largest,
+                         (now[nodes[v]] - before[nodes[v]] - first).norm() /
+                           mesh.nodes[nodes[v]].distance(mesh.nodes[nodes[0]]));
+          }
+      return dealii::Utilities::MPI::max(largest, communicator);
+    }
 
     /// Energy from nothing over the largest energy, at one output or two in a
     /// row (few steps at a sudden start may miss half of a little work):
@@ -215,25 +240,40 @@ namespace Perimorph::Application
   }
 
   template <int dim>
-  double
-  Simulation<dim>::renewed_time_step(const MotionIntegrator<dim> &integrator,
-                                     const Method                &method)
+  bool
+  Simulation<dim>::renew_limit(const MotionIntegrator<dim> &integrator,
+                               const Method                &method)
   {
+    ++steps_of_limit;
+    const bool is_linear = method.equilibrium->is_linear();
+    if (is_linear ? !limit_is_old || steps_of_limit < linear_interval
+                  : steps_of_limit % finite_interval != 0)
+      return false;
+    double change = 0.;
+    if (!is_linear)
+      {
+        auto now = Fem::to_nodal_values(method.motion.displacement,
+                                        method.problem->partition());
+        change   = gradient_change(mesh->nodal(),
+                                 displacement_of_limit,
+                                 now,
+                                 communicator);
+        if (change < allowed_change)
+          return false;
+        displacement_of_limit = std::move(now);
+      }
     const double earlier = stable_time_step;
     stable_time_step     = 0.;
-    const double longest = longest_time_step(integrator, method);
-    limit_is_old         = false;
-    steps_of_limit       = 0;
-    if (method.equilibrium->is_linear())
-      return longest;
+    longest_time_step(integrator, method);
+    limit_is_old   = false;
+    steps_of_limit = 0;
     // A limit that turns stands still for a while.
-    const double change =
+    const double of_limit =
       std::max(std::abs(stable_time_step / earlier - 1.), wanted_change / 1.5);
-    limit_interval = std::clamp(
-      static_cast<unsigned int>(limit_interval * wanted_change / change),
-      shortest_interval,
-      longest_interval);
-    return longest;
+    allowed_change = std::clamp(allowed_change * wanted_change / of_limit,
+                                least_gradient_change,
+                                largest_gradient_change);
+    return true;
   }
 
   template <int dim>
@@ -322,7 +362,11 @@ namespace Perimorph::Application
       {
         motion           = initial_motion(method);
         stable_time_step = 0.;
-        limit_interval   = is_linear ? linear_interval : shortest_interval;
+        allowed_change   = least_gradient_change;
+        if (!is_linear)
+          displacement_of_limit =
+            Fem::to_nodal_values(motion.displacement,
+                                 method.problem->partition());
       }
     double longest = longest_time_step(*integrator, method);
     if (is_fresh)
@@ -369,10 +413,8 @@ namespace Perimorph::Application
                     if (change != MotionChange::none)
                       limit_is_old = true;
                   }
-                ++steps_of_limit;
-                if (is_explicit && (limit_is_old || !is_linear) &&
-                    steps_of_limit >= limit_interval)
-                  longest = renewed_time_step(*integrator, method);
+                if (is_explicit && renew_limit(*integrator, method))
+                  longest = longest_time_step(*integrator, method);
               }
             on_instant(make_instant(instant, *integrator, method));
           }

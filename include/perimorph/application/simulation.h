@@ -182,10 +182,9 @@ namespace Perimorph::Application
     double
     longest_time_step(const MotionIntegrator<dim> &integrator,
                       const Method                &method);
-    /// Finds the limit again, and how long it holds.
-    double
-    renewed_time_step(const MotionIntegrator<dim> &integrator,
-                      const Method                &method);
+    /// After a step: finds the limit again where it may have changed.
+    bool
+    renew_limit(const MotionIntegrator<dim> &integrator, const Method &method);
     /// The state of a method with its energies.
     Instant
     make_instant(Instant                      instant,
@@ -482,14 +481,16 @@ namespace Perimorph::Application
     std::vector<double> node_mass;
     double              stable_time_step = 0.; ///< 0: not known
     double              announced_limit = 0., limit_at_start = 0.;
-    /// Whether bonds broke since the limit was found, how long ago that was,
-    /// and how long it holds.
-    bool         limit_is_old   = false;
-    unsigned int steps_of_limit = 0, limit_interval = 0;
-    double       energy_at_start = 0., largest_energy = 0.;
-    double       largest_imbalance = 0.;                 ///< of energies
-    double       latest_balance = 0., energy_drift = 0.; ///< relative
-    std::size_t  n_time_steps = 0;
+    /// Whether bonds broke since the limit was found, how long ago that was;
+    /// at finite strain: the state, and how far gradients may leave it.
+    bool                                limit_is_old   = false;
+    unsigned int                        steps_of_limit = 0;
+    std::vector<dealii::Tensor<1, dim>> displacement_of_limit;
+    double                              allowed_change = 0.;
+    double      energy_at_start = 0., largest_energy = 0.;
+    double      largest_imbalance = 0.;                 ///< of energies
+    double      latest_balance = 0., energy_drift = 0.; ///< relative
+    std::size_t n_time_steps = 0;
     Fracture::AdvanceHistory advance_history;
 
     // Progress, tables by name, checkpoints.
