@@ -187,7 +187,8 @@ namespace Perimorph::Application
     action("limit at start", limit_at_start);
     action("limit is old", limit_is_old);
     action("steps of limit", steps_of_limit);
-    action("change allowed by limit", allowed_change);
+    action("reduction of limit", limit_reduction);
+    action("steps lost to reduction", steps_lost);
     action("energy at start", energy_at_start);
     action("largest energy", largest_energy);
     action("largest imbalance", largest_imbalance);

@@ -22,13 +22,15 @@ namespace Perimorph::Application
 
     constexpr double implicit_over_explicit = 10.;
 
-    /// Steps after which the limit of stable steps is looked at: where bonds
-    /// break, and at finite strain, where it is found again if gradients of the
-    /// displacement have changed by as much as changes it by wanted_change, far
-    /// less than a safety factor leaves.
-    constexpr unsigned int linear_interval = 100, finite_interval = 5;
-    constexpr double       wanted_change = 0.01, least_gradient_change = 0.005,
-                     largest_gradient_change = 0.03;
+    /// Steps after which the limit of stable steps may be found again.
+    constexpr unsigned int limit_interval = 100;
+
+    /// Finite strain: steps after which gradients of the displacement are
+    /// looked at, and by how much a change of theirs lowers the limit at most
+    /// (Hencky's law pressed to half: 2.6). The limit itself is found again
+    /// once short steps have cost about as much as that does.
+    constexpr unsigned int gradient_interval  = 5;
+    constexpr double       limit_per_gradient = 2.5, steps_worth_a_limit = 150.;
 
     /// Largest difference of two fields' difference between nodes of a cell
     /// over their distance, of all ranks.
@@ -234,9 +236,10 @@ namespace Perimorph::Application
              << " now; 'Time integration / time step' is " << time.time_step;
         throw Base::SolveError(text.str());
       }
-    return time.time_step > 0. ? time.time_step
-                               : time.safety_factor * stable_time_step *
-                                   (is_explicit ? 1. : implicit_over_explicit);
+    return time.time_step > 0.
+             ? time.time_step
+             : time.safety_factor * stable_time_step *
+                 (is_explicit ? 1. / limit_reduction : implicit_over_explicit);
   }
 
   template <int dim>
@@ -245,34 +248,35 @@ namespace Perimorph::Application
                                const Method                &method)
   {
     ++steps_of_limit;
-    const bool is_linear = method.equilibrium->is_linear();
-    if (is_linear ? !limit_is_old || steps_of_limit < linear_interval
-                  : steps_of_limit % finite_interval != 0)
-      return false;
-    double change = 0.;
-    if (!is_linear)
+    if (method.equilibrium->is_linear())
       {
+        if (!limit_is_old || steps_of_limit < limit_interval)
+          return false;
+      }
+    else
+      {
+        if (steps_of_limit % gradient_interval != 0)
+          return false;
         auto now = Fem::to_nodal_values(method.motion.displacement,
                                         method.problem->partition());
-        change   = gradient_change(mesh->nodal(),
-                                 displacement_of_limit,
-                                 now,
-                                 communicator);
-        if (change < allowed_change)
-          return false;
+        limit_reduction =
+          1. + limit_per_gradient * gradient_change(mesh->nodal(),
+                                                    displacement_of_limit,
+                                                    now,
+                                                    communicator);
+        steps_lost += gradient_interval * (limit_reduction - 1.);
+        if (steps_lost < steps_worth_a_limit &&
+            parameters.time_integration.time_step * limit_reduction <=
+              stable_time_step)
+          return true;
         displacement_of_limit = std::move(now);
       }
-    const double earlier = stable_time_step;
-    stable_time_step     = 0.;
+    stable_time_step = 0.;
     longest_time_step(integrator, method);
-    limit_is_old   = false;
-    steps_of_limit = 0;
-    // A limit that turns stands still for a while.
-    const double of_limit =
-      std::max(std::abs(stable_time_step / earlier - 1.), wanted_change / 1.5);
-    allowed_change = std::clamp(allowed_change * wanted_change / of_limit,
-                                least_gradient_change,
-                                largest_gradient_change);
+    limit_is_old    = false;
+    limit_reduction = 1.;
+    steps_lost      = 0.;
+    steps_of_limit  = 0;
     return true;
   }
 
@@ -362,7 +366,7 @@ namespace Perimorph::Application
       {
         motion           = initial_motion(method);
         stable_time_step = 0.;
-        allowed_change   = least_gradient_change;
+        limit_reduction  = 1.;
         if (!is_linear)
           displacement_of_limit =
             Fem::to_nodal_values(motion.displacement,

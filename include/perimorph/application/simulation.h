@@ -482,11 +482,12 @@ namespace Perimorph::Application
     double              stable_time_step = 0.; ///< 0: not known
     double              announced_limit = 0., limit_at_start = 0.;
     /// Whether bonds broke since the limit was found, how long ago that was;
-    /// at finite strain: the state, and how far gradients may leave it.
+    /// at finite strain: the state, by what it may have fallen since, and what
+    /// that has cost.
     bool                                limit_is_old   = false;
     unsigned int                        steps_of_limit = 0;
     std::vector<dealii::Tensor<1, dim>> displacement_of_limit;
-    double                              allowed_change = 0.;
+    double                              limit_reduction = 1., steps_lost = 0.;
     double      energy_at_start = 0., largest_energy = 0.;
     double      largest_imbalance = 0.;                 ///< of energies
     double      latest_balance = 0., energy_drift = 0.; ///< relative
