@@ -20,6 +20,12 @@ DENSITY, STRESS, END_TIME = 7800., 1e6, 16e-6
 COMPOSITE_CRACK = "dynamic_edge_crack.prm"
 AXES_OF_FIBRES = (0, 90)
 
+# The nodes beside this crack are 0.1 and 0.9 spacings from it: its faces, in the
+# middle between them, are 0.4 beside its line.
+KNOWN_MISSES = {
+    "coupled, explicit, tip at (0, 0.1) h: mean error of K_I %": 1.1
+}
+
 
 def wave_speed(poisson):
     """Modulus of uniaxial strain, speed of pressure waves in the plate."""
@@ -339,7 +345,7 @@ def mirrored_densities(study):
 
 
 def main():
-    study = Study(__doc__, extent=["short", "long"])
+    study = Study(__doc__, KNOWN_MISSES, extent=["short", "long"])
     crack_in_motion(study)
     inclusion_and_hole(study)
     crack_in_composite(study)
