@@ -20,42 +20,6 @@ namespace Perimorph::Application
       return std::max(1., std::ceil(duration / longest * (1. - 1e-9)));
     }
 
-    constexpr double implicit_over_explicit = 10.;
-
-    /// Steps after which the limit of stable steps may be found again.
-    constexpr unsigned int limit_interval = 100;
-
-    /// Finite strain: steps after which gradients of the displacement are
-    /// looked at, and by how much a change of theirs lowers the limit at most
-    /// (Hencky's law pressed to half: 2.6). The limit itself is found again
-    /// once short steps have cost about as much as that does.
-    constexpr unsigned int gradient_interval  = 5;
-    constexpr double       limit_per_gradient = 2.5, steps_worth_a_limit = 150.;
-
-    /// Largest difference of two fields' difference between nodes of a cell
-    /// over their distance, of all ranks.
-    template <int dim>
-    double
-    gradient_change(const Mesh::NodalMesh<dim>                &mesh,
-                    const std::vector<dealii::Tensor<1, dim>> &before,
-                    const std::vector<dealii::Tensor<1, dim>> &now,
-                    const MPI_Comm                             communicator)
-    {
-      double largest = 0.;
-      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-        if (mesh.owns_cell(c))
-          {
-            const auto &nodes = mesh.cells[c];
-            const auto  first = now[nodes[0]] - before[nodes[0]];
-            for (unsigned int v = 1; v < nodes.size(); ++v)
-              largest =
-                std::max(largest,
-                         (now[nodes[v]] - before[nodes[v]] - first).norm() /
-                           mesh.nodes[nodes[v]].distance(mesh.nodes[nodes[0]]));
-          }
-      return dealii::Utilities::MPI::max(largest, communicator);
-    }
-
     /// Energy from nothing over the largest energy, at one output or two in a
     /// row (few steps at a sudden start may miss half of a little work):
     /// beyond, a motion is no solution. Beyond the smallest one that needs a
@@ -207,103 +171,6 @@ namespace Perimorph::Application
   }
 
   template <int dim>
-  double
-  Simulation<dim>::longest_time_step(const MotionIntegrator<dim> &integrator,
-                                     const Method                &method)
-  {
-    const auto &time        = parameters.time_integration;
-    const bool  is_explicit = time.scheme == TimeScheme::explicit_motion;
-    if (stable_time_step == 0. && (is_explicit || time.time_step == 0.))
-      {
-        const auto   timer   = timing.scope("time_step_limit");
-        const double earlier = announced_limit;
-        stable_time_step     = integrator.stable_time_step(method.motion);
-        // A body in pieces that nothing holds together has no limit.
-        if (earlier > 0. && !std::isfinite(stable_time_step))
-          stable_time_step = earlier;
-        if (is_explicit &&
-            std::abs(stable_time_step - earlier) > 0.05 * earlier)
-          {
-            log << "Stability limit of explicit steps at t = "
-                << method.motion.time << ": " << stable_time_step << std::endl;
-            announced_limit = stable_time_step;
-          }
-      }
-    if (is_explicit && time.time_step > stable_time_step)
-      {
-        std::ostringstream text;
-        text << "the limit of stable time steps is " << stable_time_step
-             << " now; 'Time integration / time step' is " << time.time_step;
-        throw Base::SolveError(text.str());
-      }
-    return time.time_step > 0.
-             ? time.time_step
-             : time.safety_factor * stable_time_step *
-                 (is_explicit ? 1. / limit_reduction : implicit_over_explicit);
-  }
-
-  template <int dim>
-  bool
-  Simulation<dim>::renew_limit(const MotionIntegrator<dim> &integrator,
-                               const Method                &method)
-  {
-    ++steps_of_limit;
-    if (method.equilibrium->is_linear())
-      {
-        if (!limit_is_old || steps_of_limit < limit_interval)
-          return false;
-      }
-    else
-      {
-        if (steps_of_limit % gradient_interval != 0)
-          return false;
-        auto now = Fem::to_nodal_values(method.motion.displacement,
-                                        method.problem->partition());
-        limit_reduction =
-          1. + limit_per_gradient * gradient_change(mesh->nodal(),
-                                                    displacement_of_limit,
-                                                    now,
-                                                    communicator);
-        steps_lost += gradient_interval * (limit_reduction - 1.);
-        if (steps_lost < steps_worth_a_limit &&
-            parameters.time_integration.time_step * limit_reduction <=
-              stable_time_step)
-          return true;
-        displacement_of_limit = std::move(now);
-      }
-    stable_time_step = 0.;
-    longest_time_step(integrator, method);
-    limit_is_old    = false;
-    limit_reduction = 1.;
-    steps_lost      = 0.;
-    steps_of_limit  = 0;
-    return true;
-  }
-
-  template <int dim>
-  void
-  Simulation<dim>::check_time_step()
-  {
-    const auto &time = parameters.time_integration;
-    if (time.scheme != TimeScheme::explicit_motion || time.time_step == 0.)
-      return;
-    Method method = set_up(parameters.region.mode);
-    node_mass     = Fem::lumped_mass(mesh->nodal(), materials.density);
-    const auto limit =
-      make_integrator(method)->stable_time_step(initial_motion(method));
-    if (time.time_step <= limit)
-      return;
-    std::ostringstream found, allowed;
-    found << time.time_step;
-    allowed << "at most " << limit << ", the stability limit of this mesh";
-    throw Base::InputError(
-      Base::InputMessage{"parameter 'Time integration / time step'",
-                         found.str(),
-                         allowed.str(),
-                         "0 chooses it."});
-  }
-
-  template <int dim>
   typename Simulation<dim>::Instant
   Simulation<dim>::make_instant(Instant                      instant,
                                 const MotionIntegrator<dim> &integrator,
@@ -417,7 +284,7 @@ namespace Perimorph::Application
                     if (change != MotionChange::none)
                       limit_is_old = true;
                   }
-                if (is_explicit && renew_limit(*integrator, method))
+                if (is_explicit && limit_may_have_changed(method))
                   longest = longest_time_step(*integrator, method);
               }
             on_instant(make_instant(instant, *integrator, method));
@@ -520,31 +387,27 @@ namespace Perimorph::Application
                 parameters.end_time / std::max<std::size_t>(n_time_steps, 1));
   }
 
-#define PERIMORPH_INSTANTIATE(dim)                                           \
-  template bool                  Simulation<dim>::starts_in_motion() const;  \
-  template void                  Simulation<dim>::check_motion() const;      \
-  template Solvers::NewtonRecord Simulation<dim>::solve_equilibrium(         \
-    double,                                                                  \
-    Method &,                                                                \
-    const Solvers::Equilibrium<dim>::Report &);                              \
-  template Solvers::MotionState Simulation<dim>::initial_motion(             \
-    const Method &) const;                                                   \
-  template State<dim> Simulation<dim>::gather_motion(                        \
-    const Method &,                                                          \
-    const Solvers::MotionState &,                                            \
-    const Fem::Vector &,                                                     \
-    const Fem::Vector &) const;                                              \
-  template std::unique_ptr<MotionIntegrator<dim>>                            \
-                  Simulation<dim>::make_integrator(Method &);                \
-  template double Simulation<dim>::longest_time_step(                        \
-    const MotionIntegrator<dim> &,                                           \
-    const Method &);                                                         \
-  template void                     Simulation<dim>::check_time_step();      \
-  template Simulation<dim>::Instant Simulation<dim>::make_instant(           \
-    Instant,                                                                 \
-    const MotionIntegrator<dim> &,                                           \
-    Method &);                                                               \
-  template void Simulation<dim>::follow_motion(Method &, const OnInstant &); \
+#define PERIMORPH_INSTANTIATE(dim)                                              \
+  template bool                  Simulation<dim>::starts_in_motion() const;     \
+  template void                  Simulation<dim>::check_motion() const;         \
+  template Solvers::NewtonRecord Simulation<dim>::solve_equilibrium(            \
+    double,                                                                     \
+    Method &,                                                                   \
+    const Solvers::Equilibrium<dim>::Report &);                                 \
+  template Solvers::MotionState Simulation<dim>::initial_motion(                \
+    const Method &) const;                                                      \
+  template State<dim> Simulation<dim>::gather_motion(                           \
+    const Method &,                                                             \
+    const Solvers::MotionState &,                                               \
+    const Fem::Vector &,                                                        \
+    const Fem::Vector &) const;                                                 \
+  template std::unique_ptr<MotionIntegrator<dim>>                               \
+                                    Simulation<dim>::make_integrator(Method &); \
+  template Simulation<dim>::Instant Simulation<dim>::make_instant(              \
+    Instant,                                                                    \
+    const MotionIntegrator<dim> &,                                              \
+    Method &);                                                                  \
+  template void Simulation<dim>::follow_motion(Method &, const OnInstant &);    \
   template void Simulation<dim>::integrate_in_time(Method &);
 
   PERIMORPH_INSTANTIATE(2)

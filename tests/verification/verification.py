@@ -61,6 +61,7 @@ def relative_error(values, reference):
     return (root_mean_square([a - b for a, b in zip(values, reference)]) /
             root_mean_square(reference))
 
+
 def number_or_text(cell):
     try:
         return float(cell)

@@ -182,9 +182,9 @@ namespace Perimorph::Application
     double
     longest_time_step(const MotionIntegrator<dim> &integrator,
                       const Method                &method);
-    /// After a step: finds the limit again where it may have changed.
+    /// After a step: whether the longest time step is another now.
     bool
-    renew_limit(const MotionIntegrator<dim> &integrator, const Method &method);
+    limit_may_have_changed(const Method &method);
     /// The state of a method with its energies.
     Instant
     make_instant(Instant                      instant,
